@@ -1,0 +1,25 @@
+#include "service/sph/rest_lattice.h"
+
+#include <cmath>
+
+namespace bleedsim::sph {
+
+RestLattice calibrateRestLattice(const SmoothingKernel& kernel, double spacing, double rest_density) {
+  const int reach = static_cast<int>(std::ceil(kernel.h / spacing));
+  const double softening = 0.01 * kernel.h * kernel.h;
+  double kernel_sum = 0.0;
+  double laplacian_sum = 0.0;  // of v = r^2 / 6, whose Laplacian is 1
+  for (int z = -reach; z <= reach; ++z) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        const double r = spacing * std::sqrt(static_cast<double>(x * x + y * y + z * z));
+        kernel_sum += kernel.value(r);
+        laplacian_sum += -2.0 * r * kernel.slope(r) / (r * r + softening) * r * r / 6.0;
+      }
+    }
+  }
+  const double volume = 1.0 / kernel_sum;  // m / rho0
+  return {.particle_mass = rest_density * volume, .viscosity_factor = 1.0 / (volume * laplacian_sum)};
+}
+
+}  // namespace bleedsim::sph

@@ -1,0 +1,16 @@
+// Calibration on the rest lattice: the cubic lattice of spacing dx that blood at rest is measured against.
+#pragma once
+
+#include "service/sph/smoothing_kernel.h"
+
+namespace bleedsim::sph {
+
+struct RestLattice {
+  double particle_mass = 0.0;     ///< kg; m with m sum_j W = rho0 on the lattice, the self term included
+  double viscosity_factor = 1.0;  ///< multiplies mu, so that the Brookshaw sum gives the exact Laplacian of a parabola
+};
+
+/// physics.md section 2: the factor of Wendland C2 is 1.0843 / 1.0734 / 1.0427 at h = 2 / 2.5 / 3 dx.
+RestLattice calibrateRestLattice(const SmoothingKernel& kernel, double spacing, double rest_density);
+
+}  // namespace bleedsim::sph
