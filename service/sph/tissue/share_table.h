@@ -1,0 +1,68 @@
+// What a wall behind a plane (or a sphere) adds to a particle at distance d, made from the layers of the rest lattice that would
+// stand there: design document walls.md, "Build this (E)". Layer l >= 0 lies at depth (l + 1/2) dx and is averaged over its
+// lateral offsets, so that it is a plane with the volume V/dx^2 = m/(rho0 dx^2) per area.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "service/sph/smoothing_kernel.h"
+
+namespace bleedsim::sph {
+
+/// The lattice that blood at rest is measured against.
+struct ShareSettings {
+  SmoothingKernel kernel;
+  double spacing = 0.0;        ///< dx, m
+  double particle_mass = 0.0;  ///< kg, calibrated (rest_lattice.h)
+  double rest_density = 0.0;   ///< kg/m^3
+};
+
+template <class Real>
+struct Share {
+  Real share = 0;           ///< L: the wall's part of the density is rho0 L
+  Real slope = 0;           ///< G = dL/dd, 1/m, <= 0
+  Real friction = 0;        ///< F0 = sum V f, 1/m^2, <= 0; f(r) = 2 r W'/(r^2 + 0.01 h^2)
+  Real friction_depth = 0;  ///< F1 = sum V f depth, 1/m, <= 0
+};
+
+/// L, G, F0 and F1 on d in [-h, h], 800 nodes, linear between them; the end values beyond.
+template <class Real>
+class ShareTable {
+ public:
+  static constexpr int kNodes = 800;
+
+  /// `curvature` is 1/R, 1/m: > 0 for blood inside a sphere, < 0 for blood around one, 0 for a plane. A curved wall scales all
+  /// four by curvedRatio().
+  ShareTable(const ShareSettings& settings, double curvature);
+
+  Share<Real> at(Real d) const {
+    const Real position = std::min(std::max(Real{0}, (d + reach_) * nodes_per_metre_), Real{kNodes - 1});
+    const int index = std::min(static_cast<int>(position), kNodes - 2);
+    const Real t = position - static_cast<Real>(index);
+    const Share<Real>& a = nodes_[static_cast<std::size_t>(index)];
+    const Share<Real>& b = nodes_[static_cast<std::size_t>(index) + 1];
+    return {a.share + t * (b.share - a.share), a.slope + t * (b.slope - a.slope), a.friction + t * (b.friction - a.friction),
+            a.friction_depth + t * (b.friction_depth - a.friction_depth)};
+  }
+
+  /// L at d = -h, the share of a particle that only sees wall: near 1, the mass calibration apart.
+  Real full() const { return nodes_.front().share; }
+
+ private:
+  Real reach_ = 0;
+  Real nodes_per_metre_ = 0;
+  std::vector<Share<Real>> nodes_;
+};
+
+/// The same four numbers straight from their sums over a plane's layers, in double precision.
+Share<double> planeShare(const ShareSettings& settings, double d);
+
+/// int W over the wall behind a sphere, divided by that behind its tangent plane, clamped to 0.5..2.
+double curvedRatio(const SmoothingKernel& kernel, double curvature, double d);
+
+extern template class ShareTable<float>;
+extern template class ShareTable<double>;
+
+}  // namespace bleedsim::sph

@@ -1,0 +1,283 @@
+#include "service/sph/tissue/tissue_field.h"
+
+#include <limits>
+#include <string>
+
+namespace bleedsim::sph {
+namespace {
+
+Status refusal(const TissueDescription& tissue, const std::string& what) {
+  return {StatusCode::invalid_argument, "tissue '" + tissue.name + "': " + what};
+}
+
+Status checkPlane(const TissueDescription& tissue, const PlaneShape& plane) {
+  if (!plane.point.allFinite()) return refusal(tissue, "the plane's point is not finite; give three finite coordinates in m");
+  const double length = plane.normal.norm();
+  if (!(length > 1e-6 && length < 1e6)) {
+    return refusal(tissue, "the plane's normal has length " + std::to_string(length) + "; give a vector of length 1");
+  }
+  return {};
+}
+
+Status checkBox(const TissueDescription& tissue, const BoxShape& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool finite = std::isfinite(box.lower[axis]) && std::isfinite(box.upper[axis]);
+    if (finite && box.lower[axis] < box.upper[axis]) continue;
+    return refusal(tissue, "the box spans " + std::to_string(box.lower[axis]) + " to " + std::to_string(box.upper[axis]) +
+                               " m along axis " + std::to_string(axis) + "; lower must be finite and below upper");
+  }
+  return {};
+}
+
+Status checkBowl(const TissueDescription& tissue, const BowlShape& bowl) {
+  if (!bowl.rim_center.allFinite()) return refusal(tissue, "the rim's centre is not finite; give three finite coordinates in m");
+  if (!(bowl.sphere_radius > 0.0 && std::isfinite(bowl.sphere_radius))) {
+    return refusal(tissue, "sphere_radius is " + std::to_string(bowl.sphere_radius) + " m; it must be finite and above 0");
+  }
+  if (!(bowl.depth > 0.0 && bowl.depth <= bowl.sphere_radius)) {
+    return refusal(tissue, "depth is " + std::to_string(bowl.depth) + " m; it must be above 0 and at most sphere_radius, " +
+                               std::to_string(bowl.sphere_radius) + " m");
+  }
+  return {};
+}
+
+Status checkTissue(const TissueDescription& tissue) {
+  if (!(tissue.slip >= 0.0 && tissue.slip <= 1.0)) {
+    return refusal(tissue, "slip is " + std::to_string(tissue.slip) + "; it must be between 0 and 1");
+  }
+  if (const auto* plane = std::get_if<PlaneShape>(&tissue.shape)) return checkPlane(tissue, *plane);
+  if (const auto* box = std::get_if<BoxShape>(&tissue.shape)) return checkBox(tissue, *box);
+  return checkBowl(tissue, std::get<BowlShape>(tissue.shape));
+}
+
+template <class Real>
+void addScaled(std::array<Real, 3>& sum, Real factor, const std::array<Real, 3>& vector) {
+  for (int axis = 0; axis < 3; ++axis) sum[axis] += factor * vector[axis];
+}
+
+}  // namespace
+
+template <class Real>
+Result<TissueField<Real>> TissueField<Real>::create(const std::vector<TissueDescription>& tissue, const ShareSettings& settings) {
+  if (tissue.size() > kMostTissues) {
+    return Status{StatusCode::capacity, std::to_string(tissue.size()) + " tissues; at most " + std::to_string(kMostTissues) +
+                                            " are possible: merge or remove some"};
+  }
+  for (const TissueDescription& one : tissue) {
+    if (Status status = checkTissue(one); !status) return status;
+  }
+  TissueField field;
+  if (tissue.empty()) return field;
+  field.reach_ = static_cast<Real>(settings.kernel.h);
+  field.spring_reach_ = static_cast<Real>(0.5 * settings.spacing);
+  field.spring_scale_ = static_cast<Real>(1.0 / (settings.spacing * settings.spacing));
+  field.gap_ = static_cast<Real>(kProjectionGap * settings.spacing);
+  field.plane_table_.emplace(settings, 0.0);
+  for (const TissueDescription& one : tissue) {
+    const Real grip = static_cast<Real>(1.0 - one.slip);
+    if (const auto* plane = std::get_if<PlaneShape>(&one.shape)) {
+      field.planes_.push_back({PlaneSurface<Real>{*plane}, grip});
+    } else if (const auto* box = std::get_if<BoxShape>(&one.shape)) {
+      if (box->obstacle) {
+        field.obstacles_.push_back({ObstacleSurface<Real>{*box}, grip});
+        continue;
+      }
+      for (const PlaneShape& face : containerFaces(*box)) field.planes_.push_back({PlaneSurface<Real>{face}, grip});
+    } else if (const auto* bowl = std::get_if<BowlShape>(&one.shape)) {
+      field.bowls_.push_back({BowlSurface<Real>{*bowl}, grip, ShareTable<Real>{settings, 1.0 / bowl->sphere_radius}});
+    }
+  }
+  return field;
+}
+
+template <class Real>
+bool TissueField<Real>::mayTouch(const std::array<Real, 3>& lower, const std::array<Real, 3>& upper) const {
+  const Real reach = reach_ * static_cast<Real>(1.001);  // rounding
+  std::array<Real, 3> center{};
+  std::array<Real, 3> extent{};
+  for (int axis = 0; axis < 3; ++axis) {
+    center[axis] = static_cast<Real>(0.5) * (lower[axis] + upper[axis]);
+    extent[axis] = static_cast<Real>(0.5) * (upper[axis] - lower[axis]);
+  }
+  for (const Plane& plane : planes_) {
+    const std::array<Real, 3>& n = plane.surface.normal();
+    const Real half = std::abs(n[0]) * extent[0] + std::abs(n[1]) * extent[1] + std::abs(n[2]) * extent[2];
+    if (plane.surface.value(center[0], center[1], center[2]) - half < reach) return true;
+  }
+  for (const Obstacle& obstacle : obstacles_) {
+    bool apart = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      apart = apart || lower[axis] - obstacle.surface.upper(axis) >= reach || obstacle.surface.lower(axis) - upper[axis] >= reach;
+    }
+    if (!apart) return true;
+  }
+  const Real diagonal = vectorLength(extent[0], extent[1], extent[2]);
+  for (const Bowl& bowl : bowls_) {
+    const auto part = bowl.surface.parts(center[0], center[1], center[2]);
+    if (part.plane - extent[2] < reach && part.sphere - diagonal < reach) return true;
+  }
+  return false;
+}
+
+template <class Real>
+Real TissueField<Real>::frictionOf(const Share<Real>& share, Real distance) const {
+  return share.friction + share.friction_depth / std::max(distance, static_cast<Real>(0.5) * spring_reach_);
+}
+
+template <class Real>
+Real TissueField<Real>::scaledFriction(Real share, Real distance) const {
+  const Share<Real> plane = plane_table_->at(distance);
+  if (!(plane.share > 0)) return 0;
+  return frictionOf(plane, distance) * std::min(share / plane.share, Real{2});
+}
+
+template <class Real>
+void TissueField<Real>::addPlane(const Plane& plane, Real distance, WallTerms<Real>& terms) const {
+  const Share<Real> share = plane_table_->at(distance);
+  WallTerm<Real> term;
+  term.distance = distance;
+  term.normal = plane.surface.normal();
+  term.share = share.share;
+  addScaled(term.gradient, share.slope, term.normal);
+  term.friction = frictionOf(share, distance) * plane.grip;
+  terms.add(term);
+}
+
+// A block is what two facing planes leave of each other, N_lower + N_upper - 1 along an axis, and of this the product over the
+// axes, with N = L/full: the share of a part of space, not of the lattice's rounding of it.
+template <class Real>
+void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Real z, WallTerms<Real>& terms) const {
+  const ShareTable<Real>& table = *plane_table_;
+  const std::array<Real, 3> point{x, y, z};
+  std::array<Real, 3> filled{};
+  std::array<Real, 3> slope{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Share<Real> below = table.at(obstacle.surface.lower(axis) - point[axis]);
+    const Share<Real> above = table.at(point[axis] - obstacle.surface.upper(axis));
+    filled[axis] = (below.share + above.share) / table.full() - 1;
+    slope[axis] = (above.slope - below.slope) / table.full();
+    if (filled[axis] > 0) continue;
+    filled[axis] = 0;
+    slope[axis] = 0;
+  }
+  const SignedDistance<Real> nearest = obstacle.surface.at(x, y, z);
+  WallTerm<Real> term;
+  term.distance = nearest.value;
+  term.normal = nearest.normal;
+  term.share = table.full() * filled[0] * filled[1] * filled[2];
+  term.gradient = {table.full() * slope[0] * filled[1] * filled[2], table.full() * filled[0] * slope[1] * filled[2],
+                   table.full() * filled[0] * filled[1] * slope[2]};
+  term.friction = scaledFriction(term.share, nearest.value) * obstacle.grip;
+  terms.add(term);
+}
+
+// The tissue is behind the plane and outside the sphere at once. w changes along the sphere: grad c = -(z - c n)/r, and
+// d asin(c)/dc = 1/sqrt(1 - c^2) makes grad w a unit vector across n, over r.
+template <class Real>
+void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, WallTerms<Real>& terms) const {
+  const auto part = bowl.surface.parts(x, y, z);
+  if (!(part.plane < reach_ && part.sphere < reach_)) return;
+  const ShareTable<Real>& table = *plane_table_;
+  const Real full = table.full();
+  const Share<Real> plane = table.at(part.plane);
+  const Share<Real> hollow = bowl.table.at(part.sphere);
+  const std::array<Real, 3>& n = part.sphere_normal;
+  const SignedDistance<Real> nearest = bowl.surface.at(x, y, z, part);
+  WallTerm<Real> term;
+  term.distance = nearest.value;
+  term.normal = nearest.normal;
+  if (part.plane <= -reach_) {
+    term.share = hollow.share;
+    addScaled(term.gradient, hollow.slope, n);
+  } else if (part.sphere <= -reach_) {
+    term.share = plane.share;
+    term.gradient[2] = plane.slope;
+  } else {
+    const Real c = n[2];
+    const Overlap<Real> both = overlapOf(plane.share / full, hollow.share / full, c);
+    term.share = full * both.value;
+    term.gradient[2] = both.by_first * plane.slope;
+    addScaled(term.gradient, both.by_second * hollow.slope, n);
+    const Real across = std::sqrt(std::max(Real{0}, 1 - c * c));
+    if (across > 0 && part.center_distance > 0) {
+      const Real sign = c < 0 ? Real{1} : Real{-1};
+      const Real factor = sign * static_cast<Real>(0.6366197723675814) * full * both.by_weight / (part.center_distance * across);
+      addScaled(term.gradient, -factor * c, n);
+      term.gradient[2] += factor;
+    }
+  }
+  term.friction = scaledFriction(term.share, nearest.value) * bowl.grip;
+  terms.add(term);
+}
+
+template <class Real>
+bool TissueField<Real>::sample(Real x, Real y, Real z, WallSample<Real>& out) const {
+  WallTerms<Real> terms;
+  for (const Plane& plane : planes_) {
+    const Real distance = plane.surface.value(x, y, z);
+    if (distance < reach_) addPlane(plane, distance, terms);
+  }
+  for (const Obstacle& obstacle : obstacles_) {
+    if (obstacle.surface.faceDistance(x, y, z) < reach_) addObstacle(obstacle, x, y, z, terms);
+  }
+  for (const Bowl& bowl : bowls_) addBowl(bowl, x, y, z, terms);
+  if (terms.size() == 0) return false;
+
+  const CombinedShare<Real> combined = combineShares(terms);
+  out = {};
+  out.share = combined.share;
+  out.distance = std::numeric_limits<Real>::infinity();
+  for (int k = 0; k < terms.size(); ++k) {
+    const WallTerm<Real>& term = terms[k];
+    addScaled(out.gradient, combined.weight[k], term.gradient);
+    out.friction += combined.weight[k] * term.friction;
+    if (term.distance < spring_reach_) addScaled(out.spring, (spring_reach_ - term.distance) * spring_scale_, term.normal);
+    if (term.distance >= out.distance) continue;
+    out.distance = term.distance;
+    out.normal = term.normal;
+  }
+  out.friction = std::min(out.friction, Real{0});
+  return true;
+}
+
+template <class Real>
+Real TissueField<Real>::distance(Real x, Real y, Real z) const {
+  Real nearest = std::numeric_limits<Real>::infinity();
+  for (const Plane& plane : planes_) nearest = std::min(nearest, plane.surface.value(x, y, z));
+  for (const Obstacle& obstacle : obstacles_) nearest = std::min(nearest, obstacle.surface.at(x, y, z).value);
+  for (const Bowl& bowl : bowls_) nearest = std::min(nearest, bowl.surface.at(x, y, z).value);
+  return nearest;
+}
+
+template <class Real>
+bool TissueField<Real>::project(std::array<Real, 3>& position, std::array<Real, 3>& normal) const {
+  bool moved = false;
+  const auto pushOut = [&](Real distance, const std::array<Real, 3>& direction) {
+    if (!(distance < 0)) return false;
+    addScaled(position, gap_ - distance, direction);
+    normal = direction;
+    moved = true;
+    return true;
+  };
+  for (int round = 0; round < kMostProjections; ++round) {
+    bool inside = false;
+    for (const Plane& plane : planes_) {
+      inside |= pushOut(plane.surface.value(position[0], position[1], position[2]), plane.surface.normal());
+    }
+    for (const Obstacle& obstacle : obstacles_) {
+      const SignedDistance<Real> nearest = obstacle.surface.at(position[0], position[1], position[2]);
+      inside |= pushOut(nearest.value, nearest.normal);
+    }
+    for (const Bowl& bowl : bowls_) {
+      const SignedDistance<Real> nearest = bowl.surface.at(position[0], position[1], position[2]);
+      inside |= pushOut(nearest.value, nearest.normal);
+    }
+    if (!inside) break;
+  }
+  return moved;
+}
+
+template class TissueField<float>;
+template class TissueField<double>;
+
+}  // namespace bleedsim::sph

@@ -1,0 +1,91 @@
+#include "service/sph/tissue/share_rule.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "service/sph/tissue/wall_combination.h"
+
+namespace bleedsim::sph {
+namespace {
+
+TEST(ShareRule, arcSine) {
+  for (int k = 0; k <= 1000; ++k) {
+    const double c = k / 1000.0;
+    EXPECT_NEAR(arcSine(c), std::asin(c), 3e-8) << c;
+    EXPECT_NEAR(arcSine(static_cast<float>(c)), std::asin(c), 2e-6) << c;
+  }
+  EXPECT_EQ(arcSine(1.0 + 1e-9), arcSine(1.0)) << "a rounded scalar product may exceed 1";
+  EXPECT_EQ(wedgeWeight(-0.5), wedgeWeight(0.5));
+}
+
+TEST(ShareRule, limits) {
+  for (const double a : {0.0, 0.1, 0.4, 0.9}) {
+    for (const double b : {0.0, 0.2, 0.4, 0.8}) {
+      EXPECT_NEAR(overlapOf(a, b, 0.0).value, a * b, 1e-7) << "perpendicular: the product";
+      EXPECT_NEAR(overlapOf(a, b, 1e-9).value, overlapOf(a, b, -1e-9).value, 1e-7) << "continuous there";
+      EXPECT_NEAR(overlapOf(a, b, 1.0).value, std::min(a, b), 1e-7) << "parallel: the one that is behind the other";
+      EXPECT_NEAR(overlapOf(a, b, -1.0).value, std::max(0.0, a + b - 1.0), 1e-7) << "facing";
+      EXPECT_DOUBLE_EQ(overlapOf(a, b, 0.3).value, overlapOf(b, a, 0.3).value);
+    }
+  }
+}
+
+TEST(ShareRule, partialDerivatives) {
+  const double step = 1e-6;
+  for (const double c : {-0.9, -0.3, 0.0, 0.4, 0.8}) {
+    for (const double a : {0.1, 0.35, 0.7}) {
+      for (const double b : {0.15, 0.5, 0.8}) {
+        const auto at = overlapOf(a, b, c);
+        EXPECT_NEAR((overlapOf(a + step, b, c).value - overlapOf(a - step, b, c).value) / (2 * step), at.by_first, 1e-8);
+        EXPECT_NEAR((overlapOf(a, b + step, c).value - overlapOf(a, b - step, c).value) / (2 * step), at.by_second, 1e-8);
+        if (std::abs(c) < 0.1) continue;
+        const double by_c = (overlapOf(a, b, c + step).value - overlapOf(a, b, c - step).value) / (2 * step);
+        const double w_by_c = (wedgeWeight(c + step) - wedgeWeight(c - step)) / (2 * step);
+        EXPECT_NEAR(by_c, at.by_weight * w_by_c, 1e-6);
+      }
+    }
+  }
+}
+
+WallTerms<double> threeWalls(const std::array<double, 3>& shares) {
+  const double root = std::numbers::sqrt2 / 2.0;
+  const std::array<std::array<double, 3>, 3> normals{{{0, 0, 1}, {root, 0, root}, {0, 0.6, -0.8}}};
+  WallTerms<double> terms;
+  for (std::size_t k = 0; k < 3; ++k) terms.add({.normal = normals[k], .share = shares[k]});
+  return terms;
+}
+
+TEST(ShareRule, weightsAreTheDerivativesOfThreeSkewWalls) {
+  const std::array<double, 3> shares{0.2, 0.45, 0.3};
+  const auto combined = combineShares(threeWalls(shares));
+  EXPECT_GT(combined.share, 0.45);
+  EXPECT_LT(combined.share, 0.95);
+  const double step = 1e-6;
+  for (std::size_t k = 0; k < 3; ++k) {
+    auto more = shares;
+    auto less = shares;
+    more[k] += step;
+    less[k] -= step;
+    const double slope = (combineShares(threeWalls(more)).share - combineShares(threeWalls(less)).share) / (2 * step);
+    EXPECT_NEAR(slope, combined.weight[k], 1e-8) << k;
+  }
+}
+
+TEST(ShareRule, aWallThatAddsNothingChangesNothing) {
+  WallTerms<double> one;
+  one.add({.normal = {0, 0, 1}, .share = 0.3});
+  WallTerms<double> two = one;
+  two.add({.normal = {0, 0.6, 0.8}, .share = 0.0});
+  EXPECT_NEAR(combineShares(one).share, combineShares(two).share, 1e-15);
+  EXPECT_NEAR(combineShares(two).weight[0], 1.0, 1e-15);
+}
+
+TEST(ShareRule, keepsTheNearestWallsWhenThereAreTooMany) {
+  WallTerms<double> terms;
+  for (int k = 0; k < 20; ++k) terms.add({.distance = static_cast<double>((k * 7) % 20), .normal = {0, 0, 1}});
+  ASSERT_EQ(terms.size(), WallTerms<double>::kMost);
+  for (int k = 0; k < terms.size(); ++k) EXPECT_LT(terms[k].distance, WallTerms<double>::kMost);
+}
+
+}  // namespace
+}  // namespace bleedsim::sph

@@ -1,0 +1,107 @@
+#include "service/sph/tissue/tissue_field.h"
+
+#include <limits>
+
+#include "tests/unit/tissue/tissue_fixture.h"
+
+namespace bleedsim::sph {
+namespace {
+
+constexpr double kRatio = 2.5;
+constexpr double kReach = kRatio * kSpacing;
+
+const PlaneShape kFloor{};
+
+PlaneShape wallAt(double degrees) {  // rises from the floor at x = 0, with that angle of blood between the two
+  const double angle = degrees * std::numbers::pi / 180.0;
+  return {.normal = {std::sin(angle), 0.0, -std::cos(angle)}};
+}
+
+const BowlShape kBowl{.sphere_radius = 12 * kSpacing, .depth = 5 * kSpacing};
+const BoxShape kBlock{
+    .lower = Vec3::Constant(-4 * kSpacing), .upper = {4 * kSpacing, 5 * kSpacing, 1.5 * kSpacing}, .obstacle = true};
+
+TEST(TissueField, emptyTouchesNothing) {
+  const auto field = fieldOf<float>({}, kRatio);
+  WallSample<float> wall;
+  EXPECT_TRUE(field.empty());
+  EXPECT_FALSE(field.sample(0, 0, 0, wall));
+  EXPECT_FALSE(field.mayTouch({-1, -1, -1}, {1, 1, 1}));
+  std::array<float, 3> position{0, 0, -1};
+  std::array<float, 3> normal{};
+  EXPECT_FALSE(field.project(position, normal));
+}
+
+TEST(TissueField, planeGivesItsTable) {
+  const auto field = fieldOf<double>({tissueOf(PlaneShape{.normal = {0, 0, 3}})}, kRatio);
+  const auto slippery = fieldOf<double>({tissueOf(kFloor, 0.75)}, kRatio);
+  for (const double d : {0.1, 0.3, 0.5, 1.4}) {
+    WallSample<double> wall;
+    ASSERT_TRUE(field.sample(0.3, -0.2, d * kSpacing, wall));
+    const Share<double> plane = planeShare(settingsFor(kRatio), d * kSpacing);
+    EXPECT_NEAR(wall.distance, d * kSpacing, 1e-15);
+    EXPECT_NEAR(wall.share, plane.share, 1e-5);
+    EXPECT_NEAR(wall.gradient[2] * kSpacing, plane.slope * kSpacing, 1e-4);
+    EXPECT_EQ(wall.gradient[0], 0.0);
+    const double friction = plane.friction + plane.friction_depth / (std::max(d, 0.25) * kSpacing);
+    EXPECT_NEAR(wall.friction / friction, 1.0, 1e-3);
+    EXPECT_NEAR(wall.spring[2], std::max(0.0, 0.5 - d) / kSpacing, 1e-9);
+    WallSample<double> eased;
+    ASSERT_TRUE(slippery.sample(0.3, -0.2, d * kSpacing, eased));
+    EXPECT_NEAR(eased.friction / wall.friction, 0.25, 1e-12);
+    EXPECT_NEAR(eased.share, wall.share, 1e-15);
+  }
+  WallSample<double> wall;
+  EXPECT_FALSE(field.sample(0, 0, kReach * 1.0001, wall));
+  EXPECT_FALSE(field.sample(0, 0, std::numeric_limits<double>::quiet_NaN(), wall));
+  EXPECT_TRUE(field.sample(0, 0, -10 * kReach, wall)) << "inside the tissue";
+}
+
+// grad L is the derivative of L, whatever meets: perpendicular faces, wedges, a bowl's hollow and rim, a block's edges.
+TEST(TissueField, gradientIsTheDerivativeOfTheShare) {
+  BoxShape box{.upper = Vec3::Constant(8 * kSpacing)};
+  const std::vector<std::pair<const char*, std::vector<TissueDescription>>> scenes{
+      {"container", {tissueOf(box)}},
+      {"wedge 40", {tissueOf(kFloor), tissueOf(wallAt(40))}},
+      {"wedge 60", {tissueOf(kFloor), tissueOf(wallAt(60))}},
+      {"wedge 130", {tissueOf(kFloor), tissueOf(wallAt(130))}},
+      {"three", {tissueOf(kFloor), tissueOf(wallAt(60)), tissueOf(PlaneShape{.normal = Vec3(0.2, 0.9, 0.1)})}},
+      {"gap", {tissueOf(kFloor), tissueOf(PlaneShape{.point = {0, 0, 1.5 * kSpacing}, .normal = {0, 0, -1}})}},
+      {"bowl", {tissueOf(kBowl)}},
+      {"block", {tissueOf(kBlock)}}};
+  const double step = 2.0 * kReach / (ShareTable<double>::kNodes - 1);  // below it the table's straight pieces show
+  for (const auto& [name, tissue] : scenes) {
+    const auto field = fieldOf<double>(tissue, kRatio);
+    PointStream points;
+    int compared = 0;
+    double worst = 0.0;
+    double squares = 0.0;
+    for (int n = 0; n < 20000; ++n) {
+      const Vec3 p = points.nextPoint(-14 * kSpacing, 14 * kSpacing);
+      WallSample<double> wall;
+      const double distance = field.distance(p.x(), p.y(), p.z());
+      if (!(distance > 0.05 * kSpacing && distance < kReach)) continue;
+      if (!field.sample(p.x(), p.y(), p.z(), wall)) continue;
+      Vec3 slope;
+      for (int axis = 0; axis < 3; ++axis) {
+        WallSample<double> more;
+        WallSample<double> less;
+        const Vec3 a = p + step * Vec3::Unit(axis);
+        const Vec3 b = p - step * Vec3::Unit(axis);
+        const double upper = field.sample(a.x(), a.y(), a.z(), more) ? more.share : 0.0;
+        const double lower = field.sample(b.x(), b.y(), b.z(), less) ? less.share : 0.0;
+        slope[axis] = (upper - lower) / (2.0 * step);
+      }
+      const double error = kSpacing * (slope - Vec3(wall.gradient[0], wall.gradient[1], wall.gradient[2])).norm();
+      ++compared;
+      worst = std::max(worst, error);
+      squares += error * error;
+    }
+    EXPECT_GT(compared, 50) << name;
+    EXPECT_LT(std::sqrt(squares / compared), 5e-4) << name;
+    EXPECT_LT(worst, 0.02) << name << ": differences across the kinks of min and max are larger";
+  }
+}
+
+}  // namespace
+}  // namespace bleedsim::sph
