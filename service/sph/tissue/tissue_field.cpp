@@ -154,7 +154,8 @@ void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Re
   for (int axis = 0; axis < 3; ++axis) {
     const Share<Real> below = table.at(obstacle.surface.lower(axis) - point[axis]);
     const Share<Real> above = table.at(point[axis] - obstacle.surface.upper(axis));
-    filled[axis] = (below.share + above.share) / table.full() - 1;
+    const Real most = std::max(below.share, above.share) / table.full();  // 1 where the block is thick: no rounding is left over
+    filled[axis] = (most - 1) + std::min(below.share, above.share) / table.full();
     slope[axis] = (above.slope - below.slope) / table.full();
     if (filled[axis] > 0) continue;
     filled[axis] = 0;

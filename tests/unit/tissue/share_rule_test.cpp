@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "service/sph/smoothing_kernel.h"
 #include "service/sph/tissue/wall_combination.h"
 
 namespace bleedsim::sph {
@@ -85,6 +86,42 @@ TEST(ShareRule, keepsTheNearestWallsWhenThereAreTooMany) {
   for (int k = 0; k < 20; ++k) terms.add({.distance = static_cast<double>((k * 7) % 20), .normal = {0, 0, 1}});
   ASSERT_EQ(terms.size(), WallTerms<double>::kMost);
   for (int k = 0; k < terms.size(); ++k) EXPECT_LT(terms[k].distance, WallTerms<double>::kMost);
+}
+
+// A wedge of blood, 30 to 150 degrees, against sums over cells: what walls.md promises is .036.
+TEST(ShareRule, wedgesAgainstBruteForce) {
+  const SmoothingKernel kernel{.h = 1.0};
+  const int cells = 40;
+  const double cell = 2.0 / cells;
+  for (const double degrees : {30.0, 60.0, 90.0, 120.0, 150.0}) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const double nx = std::sin(angle);
+    const double nz = -std::cos(angle);
+    for (const double first_distance : {0.1, 0.25, 0.5}) {
+      for (const double second_distance : {0.1, 0.25, 0.5}) {
+        double first = 0.0;
+        double second = 0.0;
+        double either = 0.0;
+        for (int i = 0; i < cells; ++i) {
+          for (int j = 0; j < cells; ++j) {
+            for (int k = 0; k < cells; ++k) {
+              const double x = (i + 0.5) * cell - 1.0;
+              const double y = (j + 0.5) * cell - 1.0;
+              const double z = (k + 0.5) * cell - 1.0;
+              const double w = kernel.value(std::sqrt(x * x + y * y + z * z)) * cell * cell * cell;
+              const bool behind_first = z < -first_distance;
+              const bool behind_second = nx * x + nz * z < -second_distance;
+              if (behind_first) first += w;
+              if (behind_second) second += w;
+              if (behind_first || behind_second) either += w;
+            }
+          }
+        }
+        EXPECT_NEAR(first + second - overlapOf(first, second, nz).value, either, 0.036)
+            << degrees << " degrees, " << first_distance << ", " << second_distance;
+      }
+    }
+  }
 }
 
 }  // namespace

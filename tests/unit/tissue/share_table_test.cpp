@@ -118,7 +118,7 @@ TEST_P(ShareTableTest, curvedRatio) {
 // The ratio by brute force: midpoint cells of the ball around the particle.
 TEST_P(ShareTableTest, curvedRatioAgainstBruteForce) {
   const double radius = 6.0 * kSpacing;
-  const int cells = 80;
+  const int cells = 120;
   const double d = 0.25 * h_;  // a whole number of cells
   const double cell = 2.0 * h_ / cells;
   double plane = 0.0;

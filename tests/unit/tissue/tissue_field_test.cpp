@@ -103,5 +103,96 @@ TEST(TissueField, gradientIsTheDerivativeOfTheShare) {
   }
 }
 
+// A free-slip wall beside a no-slip one: each brings its own friction, with the weight of its share.
+TEST(TissueField, cornersWeighTheFriction) {
+  const auto field = fieldOf<double>({tissueOf(kFloor), tissueOf(PlaneShape{.normal = {1, 0, 0}}, 1.0)}, kRatio);
+  const auto floor_only = fieldOf<double>({tissueOf(kFloor)}, kRatio);
+  WallSample<double> corner;
+  WallSample<double> floor;
+  ASSERT_TRUE(field.sample(0.4 * kSpacing, 0, 0.5 * kSpacing, corner));
+  ASSERT_TRUE(floor_only.sample(0.4 * kSpacing, 0, 0.5 * kSpacing, floor));
+  const double side = planeShare(settingsFor(kRatio), 0.4 * kSpacing).share;
+  EXPECT_NEAR(corner.friction / floor.friction, 1.0 - side, 1e-4);
+  EXPECT_NEAR(corner.share, 1.0 - (1.0 - floor.share) * (1.0 - side), 1e-5);
+  EXPECT_NEAR(corner.spring[0] * kSpacing, 0.1, 1e-9) << "each plane pushes on its own";
+  EXPECT_NEAR(corner.spring[2], 0.0, 1e-9);
+  EXPECT_NEAR(corner.distance, 0.4 * kSpacing, 1e-12);
+  EXPECT_EQ(corner.normal[0], 1.0);
+}
+
+TEST(TissueField, theSameWallTwiceIsOneWall) {
+  const auto once = fieldOf<double>({tissueOf(kFloor)}, kRatio);
+  const auto twice = fieldOf<double>({tissueOf(kFloor), tissueOf(kFloor)}, kRatio);
+  WallSample<double> a;
+  WallSample<double> b;
+  ASSERT_TRUE(once.sample(0, 0, 0.7 * kSpacing, a));
+  ASSERT_TRUE(twice.sample(0, 0, 0.7 * kSpacing, b));
+  EXPECT_NEAR(a.share, b.share, 1e-6);
+  EXPECT_NEAR(a.gradient[2] / b.gradient[2], 1.0, 1e-6);
+  EXPECT_NEAR(a.friction / b.friction, 1.0, 1e-6);
+}
+
+TEST(TissueField, bowlIsItsHollowDeepInsideAndAPlaneFarOutside) {
+  const auto field = fieldOf<double>({tissueOf(kBowl)}, kRatio);
+  const ShareTable<double> hollow{settingsFor(kRatio), 1.0 / kBowl.sphere_radius};
+  const Share<double> plane = planeShare(settingsFor(kRatio), 0.5 * kSpacing);
+  WallSample<double> wall;
+  ASSERT_TRUE(field.sample(0, 0, -4.5 * kSpacing, wall));
+  EXPECT_NEAR(wall.share, hollow.at(0.5 * kSpacing).share, 1e-9);
+  EXPECT_GT(wall.share, plane.share);
+  EXPECT_LT(wall.gradient[2], 0.0);
+  const double hollow_friction = wall.friction;
+  ASSERT_TRUE(field.sample(30 * kSpacing, 0, 0.5 * kSpacing, wall));
+  EXPECT_NEAR(wall.share, plane.share, 1e-5);
+  EXPECT_LT(hollow_friction, wall.friction) << "a hollow has more wall within reach";
+  EXPECT_FALSE(field.sample(0, 0, 0, wall));
+}
+
+TEST(TissueField, floatFollowsDouble) {
+  const std::vector<TissueDescription> tissue{tissueOf(kFloor, 0.3), tissueOf(wallAt(70)), tissueOf(kBlock), tissueOf(kBowl)};
+  const auto single = fieldOf<float>(tissue, kRatio);
+  const auto reference = fieldOf<double>(tissue, kRatio);
+  PointStream points;
+  int compared = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const Vec3 p = points.nextPoint(-8 * kSpacing, 8 * kSpacing).cast<float>().cast<double>();
+    const double distance = reference.distance(p.x(), p.y(), p.z());
+    WallSample<double> exact;
+    WallSample<float> wall;
+    const Eigen::Vector3f q = p.cast<float>();
+    const bool touched = single.sample(q.x(), q.y(), q.z(), wall);
+    EXPECT_TRUE(std::isfinite(wall.share) && std::isfinite(wall.friction));
+    if (!(distance > 0.01 * kSpacing && distance < 0.99 * kReach)) continue;
+    if (!reference.sample(p.x(), p.y(), p.z(), exact)) continue;
+    ASSERT_TRUE(touched || exact.share < 1e-6);
+    ++compared;
+    EXPECT_NEAR(static_cast<double>(wall.share), exact.share, 5e-6);
+    EXPECT_NEAR(static_cast<double>(wall.distance), exact.distance, 1e-5 * kSpacing);
+    if (exact.share < 1e-3) continue;
+    EXPECT_NEAR(static_cast<double>(wall.friction) / exact.friction, 1.0, 1e-3);
+  }
+  EXPECT_GT(compared, 200);
+}
+
+TEST(TissueField, everyValueIsFiniteAndInRangeEverywhere) {
+  const std::vector<TissueDescription> tissue{tissueOf(kFloor), tissueOf(wallAt(20)), tissueOf(wallAt(155)), tissueOf(kBlock),
+                                              tissueOf(kBowl)};
+  const auto field = fieldOf<float>(tissue, 2.0);
+  PointStream points;
+  for (int n = 0; n < 5000; ++n) {
+    const Eigen::Vector3f p = points.nextPoint(-16 * kSpacing, 16 * kSpacing).cast<float>();
+    WallSample<float> wall;
+    if (!field.sample(p.x(), p.y(), p.z(), wall)) continue;
+    EXPECT_GE(wall.share, 0.0f);
+    EXPECT_LE(wall.share, 1.0f);
+    EXPECT_LE(wall.friction, 0.0f);
+    EXPECT_NEAR(vectorLength(wall.normal[0], wall.normal[1], wall.normal[2]), 1.0f, 1e-5f);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_TRUE(std::isfinite(wall.gradient[axis]));
+      EXPECT_TRUE(std::isfinite(wall.spring[axis]));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bleedsim::sph
