@@ -1,0 +1,71 @@
+#include "service/sph/wound/orifice.h"
+
+#include <cmath>
+
+#include "service/sph/wound/text.h"
+
+namespace bleedsim::sph {
+namespace {
+
+constexpr double kPascalPerMmHg = 133.322;
+constexpr double kMlPerCubicMetre = 1e6;
+
+/// For a person to type back: three digits, rounded the way that is accepted.
+double roundedDown(double value) {
+  if (!(value > 0.0)) return 0.0;
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return std::floor(value / unit + 1e-6) * unit;
+}
+double roundedUp(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return std::ceil(value / unit - 1e-6) * unit;
+}
+
+}  // namespace
+
+double orificeSpeed(double pressure_drop, double discharge_coefficient, double rest_density) {
+  if (!(pressure_drop > 0.0)) return 0.0;
+  return discharge_coefficient * std::sqrt(2.0 * pressure_drop / rest_density);
+}
+
+double driveFlow(const WoundDrive& drive, double area, double rest_density) {
+  if (const auto* flow = std::get_if<FlowDrive>(&drive)) return flow->flow;
+  const auto& pressure = std::get<PressureDriveSettings>(drive);
+  return orificeSpeed(pressure.inlet_pressure, pressure.discharge_coefficient, rest_density) * area;
+}
+
+Status checkDrive(const WoundDrive& drive) {
+  const auto invalid = [](const auto&... parts) { return Status{StatusCode::invalid_argument, textOf(parts...)}; };
+  if (const auto* flow = std::get_if<FlowDrive>(&drive)) {
+    if (std::isfinite(flow->flow) && flow->flow >= 0.0) return {};
+    return invalid("wound flow is ", flow->flow * kMlPerCubicMetre, " mL/s; it must be finite and at least 0");
+  }
+  const auto& pressure = std::get<PressureDriveSettings>(drive);
+  if (!std::isfinite(pressure.inlet_pressure) || pressure.inlet_pressure < 0.0) {
+    return invalid("wound inlet pressure is ", pressure.inlet_pressure / kPascalPerMmHg,
+                   " mmHg; it must be finite and at least 0");
+  }
+  if (!(pressure.discharge_coefficient > 0.0 && pressure.discharge_coefficient <= 1.0)) {
+    return invalid("wound discharge coefficient is ", pressure.discharge_coefficient, "; it must be above 0 and at most 1");
+  }
+  return {};
+}
+
+Status checkSpeed(const ColumnSpeed& column, const WoundDrive& drive) {
+  // A scene whose own inlet pressure set the limit must not be refused for a rounding error.
+  if (column.speed <= column.limit * (1.0 + 1e-9)) return {};
+  const double ratio = column.limit / column.speed;
+  std::string lower;
+  if (const auto* flow = std::get_if<FlowDrive>(&drive)) {
+    lower = textOf("flow to at most ", roundedDown(flow->flow * ratio * kMlPerCubicMetre), " mL/s");
+  } else {
+    const double pressure = std::get<PressureDriveSettings>(drive).inlet_pressure * ratio * ratio;
+    lower = textOf("inlet pressure to at most ", roundedDown(pressure / kPascalPerMmHg), " mmHg");
+  }
+  return {StatusCode::invalid_argument,
+          textOf("wound would emit at ", column.speed, " m/s, above the ", column.limit,
+                 " m/s that the scene's speed of sound allows (c0 / mach_factor); lower the ", lower,
+                 ", enlarge the patch, or load the scene with design_speed_m_per_s of at least ", roundedUp(column.speed))};
+}
+
+}  // namespace bleedsim::sph

@@ -1,0 +1,273 @@
+#include "service/sph/wound/wound_set.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "service/sph/wound/orifice.h"
+#include "service/sph/wound/text.h"
+
+namespace bleedsim::sph {
+namespace {
+
+constexpr std::size_t kMaxNameLength = 256;
+
+Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
+
+}  // namespace
+
+WoundSet::WoundSet(const WorldDescription& description, double speed_of_sound)
+    : domain_{description.domain},
+      spacing_{description.spacing},
+      support_radius_{description.supportRadius()},
+      rest_density_{description.rest_density},
+      particle_volume_{description.particleVolume()},
+      speed_limit_{speed_of_sound / description.compressibility.mach_factor},
+      max_wounds_{std::min(description.max_wounds, kMaxInletSlots)},
+      wound_of_slot_(max_wounds_ + 1, 0) {
+  wounds_.reserve(max_wounds_);
+  states_.reserve(max_wounds_);
+  reach_squared_.reserve(max_wounds_);
+}
+
+Result<std::uint32_t> WoundSet::add(const WoundDescription& wound) {
+  if (wounds_.size() >= max_wounds_) {
+    return Status{StatusCode::capacity, textOf("there are already ", wounds_.size(), " wounds, the most that this scene allows ",
+                                               "(max_wounds); remove one first or load a scene with more")};
+  }
+  if (Status status = checkNameAndDrive(wound); !status) return status;
+  Result<Opening> opening = planOpening(wound);
+  if (!opening) return opening.status();
+  Throat throat{freeSlot(), opening->frame, std::move(opening->patch), spacing_, support_radius_};
+  if (Status status = checkClear(throat, 0); !status) return status;
+  const Result<double> rate = planRate(wound, throat);
+  if (!rate) return rate.status();
+
+  throat.setRate(*rate);
+  const std::uint32_t id = next_id_++;
+  wound_of_slot_[throat.slot()] = static_cast<std::uint16_t>(wounds_.size());
+  wounds_.push_back({.id = id, .description = wound, .throat = std::move(throat)});
+  states_.push_back({.id = id, .emitted = 0.0, .flow = *rate * particle_volume_});
+  refreshReach();
+  return id;
+}
+
+Status WoundSet::update(const UpdateWound& change, const WithdrawThroat& withdraw) {
+  const std::size_t index = indexOf(change.wound_id);
+  if (index == wounds_.size()) return unknown(change.wound_id);
+  Wound& wound = wounds_[index];
+  WoundDescription next = wound.description;
+  if (change.name) next.name = *change.name;
+  if (change.position) next.position = *change.position;
+  if (change.normal) next.normal = *change.normal;
+  if (change.tangent) next.tangent = *change.tangent;
+  if (change.shape) next.shape = *change.shape;
+  if (change.drive) next.drive = *change.drive;
+
+  if (Status status = checkNameAndDrive(next); !status) return status;
+  std::optional<Throat> reopened;
+  if (change.position || change.normal || change.tangent || change.shape) {
+    Result<Opening> opening = planOpening(next);
+    if (!opening) return opening.status();
+    const double column = wound.throat.column();
+    reopened.emplace(wound.throat.slot(), opening->frame, std::move(opening->patch), spacing_, support_radius_,
+                     column - std::floor(column));
+    if (Status status = checkClear(*reopened, wound.id); !status) return status;
+  }
+  const Result<double> rate = planRate(next, reopened ? *reopened : wound.throat);
+  if (!rate) return rate.status();
+
+  if (reopened) {
+    withdrawThroat(index, withdraw);
+    wound.throat = std::move(*reopened);
+  }
+  wound.throat.setRate(*rate);
+  wound.description = std::move(next);
+  states_[index].flow = *rate * particle_volume_;
+  refreshReach();
+  return {};
+}
+
+Status WoundSet::remove(std::uint32_t id, const WithdrawThroat& withdraw) {
+  const std::size_t index = indexOf(id);
+  if (index == wounds_.size()) return unknown(id);
+  withdrawThroat(index, withdraw);
+  wounds_.erase(wounds_.begin() + static_cast<std::ptrdiff_t>(index));
+  states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(index));
+  for (std::size_t i = index; i < wounds_.size(); ++i) wound_of_slot_[wounds_[i].throat.slot()] = static_cast<std::uint16_t>(i);
+  refreshReach();
+  return {};
+}
+
+InletState WoundSet::kinematics(std::uint32_t tag) const {
+  const InletTag parts = unpackInletTag(tag);
+  assert(parts.slot >= 1 && parts.slot < wound_of_slot_.size() && wound_of_slot_[parts.slot] < wounds_.size());
+  InletState state = wounds_[wound_of_slot_[parts.slot]].throat.kinematics(parts);
+  wrap(state.position);
+  return state;
+}
+
+double WoundSet::openFraction(const Vec3& position) const {
+  double open = 0.0;
+  for (std::size_t i = 0; i < wounds_.size(); ++i) {
+    const PatchFrame& frame = wounds_[i].throat.frame();
+    const Vec3 offset = nearestOffset(frame.origin, position);
+    if (offset.squaredNorm() < reach_squared_[i]) open += wounds_[i].throat.openFraction(frame.toLocal(offset));
+  }
+  return std::min(1.0, open);
+}
+
+const WoundDescription* WoundSet::description(std::uint32_t id) const {
+  const std::size_t index = indexOf(id);
+  return index == wounds_.size() ? nullptr : &wounds_[index].description;
+}
+
+const Throat* WoundSet::throat(std::uint32_t id) const {
+  const std::size_t index = indexOf(id);
+  return index == wounds_.size() ? nullptr : &wounds_[index].throat;
+}
+
+double WoundSet::deepestThroat() const {
+  double depth = 0.0;
+  for (const Wound& wound : wounds_) depth = std::max(depth, wound.throat.depth());
+  return depth;
+}
+
+std::size_t WoundSet::indexOf(std::uint32_t id) const {
+  const auto found =
+      std::lower_bound(wounds_.begin(), wounds_.end(), id, [](const Wound& a, std::uint32_t b) { return a.id < b; });
+  return found != wounds_.end() && found->id == id ? static_cast<std::size_t>(found - wounds_.begin()) : wounds_.size();
+}
+
+Status WoundSet::unknown(std::uint32_t id) const {
+  std::string known;
+  for (std::size_t i = 0; i < std::min<std::size_t>(wounds_.size(), 16); ++i) known += textOf(i == 0 ? "" : ", ", wounds_[i].id);
+  if (wounds_.size() > 16) known += ", ...";
+  return {StatusCode::not_found,
+          textOf("there is no wound ", id, "; ", wounds_.empty() ? "there are no wounds" : "the wounds now are " + known)};
+}
+
+Status WoundSet::checkNameAndDrive(const WoundDescription& wound) const {
+  if (wound.name.size() > kMaxNameLength) {
+    return invalid(textOf("wound name has ", wound.name.size(), " bytes; at most ", kMaxNameLength, " are allowed"));
+  }
+  return checkDrive(wound.drive);
+}
+
+Result<WoundSet::Opening> WoundSet::planOpening(const WoundDescription& wound) const {
+  Result<PatchFrame> frame = makePatchFrame(wound.position, wound.normal, wound.tangent);
+  if (!frame) return frame.status();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (wound.position[axis] >= domain_.lower[axis] && wound.position[axis] <= domain_.upper[axis]) continue;
+    return invalid(textOf("wound position ", textOfPoint(wound.position), " m is outside the domain from ",
+                          textOfPoint(domain_.lower), " to ", textOfPoint(domain_.upper), " m"));
+  }
+  Result<PatchSites> patch = makePatchSites(wound.shape, spacing_);
+  if (!patch) return patch.status();
+  Opening opening{*frame, std::move(*patch)};
+  if (Status status = checkInside(opening); !status) return status;
+  return opening;
+}
+
+Status WoundSet::checkInside(const Opening& opening) const {
+  double extent = 0.0;
+  for (const Vec2& site : opening.patch.sites) {
+    extent = std::max(extent, site.norm());
+    const Vec3 exit = opening.frame.toWorld(site, 0.0);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (domain_.periodic[static_cast<std::size_t>(axis)]) continue;
+      if (exit[axis] >= domain_.lower[axis] && exit[axis] <= domain_.upper[axis]) continue;
+      return invalid(textOf("wound patch reaches out of the domain at ", textOfPoint(exit), " m; the domain is from ",
+                            textOfPoint(domain_.lower), " to ", textOfPoint(domain_.upper), " m"));
+    }
+  }
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (!domain_.periodic[static_cast<std::size_t>(axis)]) continue;
+    const double room = domain_.upper[axis] - domain_.lower[axis] - spacing_;
+    if (2.0 * extent > room) {
+      return invalid(textOf("wound patch reaches ", extent, " m from its position; on this scene's periodic side it may reach ",
+                            0.5 * room, " m, or it would meet itself"));
+    }
+  }
+  return {};
+}
+
+Status WoundSet::checkClear(const Throat& candidate, std::uint32_t except_id) const {
+  const double separation = kSiteSeparation * spacing_;
+  for (const Wound& wound : wounds_) {
+    const Throat& other = wound.throat;
+    if (wound.id == except_id) continue;
+    const double apart = nearestOffset(other.frame().origin, candidate.frame().origin).norm();
+    if (apart > other.reach() + candidate.reach() + spacing_) continue;
+    // Points along the new columns, half a spacing apart, against the other column as a solid of its sites.
+    for (const Vec2& site : candidate.sites()) {
+      for (double height = 0.5 * spacing_; height >= -candidate.depth(); height -= 0.5 * spacing_) {
+        const Vec3 local = other.frame().toLocal(nearestOffset(other.frame().origin, candidate.frame().toWorld(site, height)));
+        if (local.z() > spacing_ || local.z() < -other.depth() - spacing_) continue;
+        bool clear = true;
+        other.grid().forEachNear({local.x(), local.y()},
+                                 [&](std::uint32_t, double squared) { clear = clear && squared >= separation * separation; });
+        if (!clear) {
+          return invalid(textOf("wound at ", textOfPoint(candidate.frame().origin), " m overlaps wound ", wound.id, " at ",
+                                textOfPoint(other.frame().origin), " m; keep their patches one spacing (", spacing_,
+                                " m) apart, or change wound ", wound.id));
+        }
+      }
+    }
+  }
+  return {};
+}
+
+Result<double> WoundSet::planRate(const WoundDescription& wound, const Throat& throat) const {
+  const double rate = driveFlow(wound.drive, throat.area(), rest_density_) / particle_volume_;
+  if (Status status = checkSpeed({.speed = throat.speedFor(rate), .limit = speed_limit_}, wound.drive); !status) return status;
+  return rate;
+}
+
+std::uint32_t WoundSet::freeSlot() const {
+  std::vector<bool> taken(max_wounds_ + 1, false);
+  for (const Wound& wound : wounds_) taken[wound.throat.slot()] = true;
+  std::uint32_t slot = 1;
+  while (taken[slot]) ++slot;
+  return slot;
+}
+
+void WoundSet::wrap(Vec3& position) const {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (!domain_.periodic[static_cast<std::size_t>(axis)]) continue;
+    const double side = domain_.upper[axis] - domain_.lower[axis];
+    position[axis] -= side * std::floor((position[axis] - domain_.lower[axis]) / side);
+  }
+}
+
+Vec3 WoundSet::nearestOffset(const Vec3& from, const Vec3& to) const {
+  Vec3 offset = to - from;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (!domain_.periodic[static_cast<std::size_t>(axis)]) continue;
+    const double side = domain_.upper[axis] - domain_.lower[axis];
+    offset[axis] -= side * std::round(offset[axis] / side);
+  }
+  return offset;
+}
+
+void WoundSet::book(std::size_t index, const InletStep& step, double dt) {
+  Wound& wound = wounds_[index];
+  wound.emitted += step.emitted;
+  emitted_ += step.emitted;
+  refused_ += step.refused;
+  commanded_ += states_[index].flow / particle_volume_ * dt;
+  states_[index].emitted = static_cast<double>(wound.emitted) * particle_volume_;
+}
+
+void WoundSet::withdrawThroat(std::size_t index, const WithdrawThroat& withdraw) {
+  const Throat& throat = wounds_[index].throat;
+  if (withdraw) withdraw(throat);
+  withdrawn_ += throat.unseen();
+}
+
+void WoundSet::refreshReach() {
+  reach_squared_.clear();
+  for (const Wound& wound : wounds_) reach_squared_.push_back(wound.throat.sparse() ? 0.0 : std::pow(wound.throat.reach(), 2));
+}
+
+}  // namespace bleedsim::sph
