@@ -134,7 +134,7 @@ Real TissueField<Real>::scaledFriction(Real share, Real distance) const {
 template <class Real>
 void TissueField<Real>::addPlane(const Plane& plane, Real distance, WallTerms<Real>& terms) const {
   const Share<Real> share = plane_table_->at(distance);
-  WallTerm<Real> term;
+  WallTerm<Real> term{};
   term.distance = distance;
   term.normal = plane.surface.normal();
   term.share = share.share;
@@ -162,7 +162,7 @@ void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Re
     slope[axis] = 0;
   }
   const SignedDistance<Real> nearest = obstacle.surface.at(x, y, z);
-  WallTerm<Real> term;
+  WallTerm<Real> term{};
   term.distance = nearest.value;
   term.normal = nearest.normal;
   term.share = table.full() * filled[0] * filled[1] * filled[2];
@@ -184,7 +184,7 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, WallTe
   const Share<Real> hollow = bowl.table.at(part.sphere);
   const std::array<Real, 3>& n = part.sphere_normal;
   const SignedDistance<Real> nearest = bowl.surface.at(x, y, z, part);
-  WallTerm<Real> term;
+  WallTerm<Real> term{};
   term.distance = nearest.value;
   term.normal = nearest.normal;
   if (part.plane <= -reach_) {

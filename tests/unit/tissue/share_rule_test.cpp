@@ -48,11 +48,19 @@ TEST(ShareRule, partialDerivatives) {
   }
 }
 
+WallTerm<double> termOf(const std::array<double, 3>& normal, double share, double distance = 0.0) {
+  WallTerm<double> term{};
+  term.distance = distance;
+  term.normal = normal;
+  term.share = share;
+  return term;
+}
+
 WallTerms<double> threeWalls(const std::array<double, 3>& shares) {
   const double root = std::numbers::sqrt2 / 2.0;
   const std::array<std::array<double, 3>, 3> normals{{{0, 0, 1}, {root, 0, root}, {0, 0.6, -0.8}}};
   WallTerms<double> terms;
-  for (std::size_t k = 0; k < 3; ++k) terms.add({.normal = normals[k], .share = shares[k]});
+  for (std::size_t k = 0; k < 3; ++k) terms.add(termOf(normals[k], shares[k]));
   return terms;
 }
 
@@ -74,16 +82,16 @@ TEST(ShareRule, weightsAreTheDerivativesOfThreeSkewWalls) {
 
 TEST(ShareRule, aWallThatAddsNothingChangesNothing) {
   WallTerms<double> one;
-  one.add({.normal = {0, 0, 1}, .share = 0.3});
+  one.add(termOf({0, 0, 1}, 0.3));
   WallTerms<double> two = one;
-  two.add({.normal = {0, 0.6, 0.8}, .share = 0.0});
+  two.add(termOf({0, 0.6, 0.8}, 0.0));
   EXPECT_NEAR(combineShares(one).share, combineShares(two).share, 1e-15);
   EXPECT_NEAR(combineShares(two).weight[0], 1.0, 1e-15);
 }
 
 TEST(ShareRule, keepsTheNearestWallsWhenThereAreTooMany) {
   WallTerms<double> terms;
-  for (int k = 0; k < 20; ++k) terms.add({.distance = static_cast<double>((k * 7) % 20), .normal = {0, 0, 1}});
+  for (int k = 0; k < 20; ++k) terms.add(termOf({0, 0, 1}, 0.1, (k * 7) % 20));
   ASSERT_EQ(terms.size(), WallTerms<double>::kMost);
   for (int k = 0; k < terms.size(); ++k) EXPECT_LT(terms[k].distance, WallTerms<double>::kMost);
 }
