@@ -1,5 +1,6 @@
 #include "service/sph/wound/patch_geometry.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
