@@ -46,8 +46,8 @@ std::uint64_t spreadingStride(std::uint64_t count) {
 
 }  // namespace
 
-Throat::Throat(std::uint32_t slot, const PatchFrame& frame, PatchSites patch, double spacing, double support_radius,
-               double head_start)
+Throat::Throat(std::uint32_t slot, const PatchFrame& frame, const PatchSites& patch, double spacing, double support_radius,
+               const Start& start)
     : slot_{slot},
       frame_{frame},
       area_{patch.area},
@@ -57,11 +57,12 @@ Throat::Throat(std::uint32_t slot, const PatchFrame& frame, PatchSites patch, do
       support_radius_{support_radius},
       height_per_particle_{patch.gap / static_cast<double>(patch.sites.size())},
       sparse_{patch.gap > kDenseGap * spacing * (1.0 + 1e-9)},
-      column_{head_start},
+      column_{start.head_start},
       site_of_rank_(patch.sites.size()),
       rank_of_site_(patch.sites.size()),
       holes_(patch.sites.size(), 0) {
-  assert(head_start >= 0.0 && head_start < 1.0);
+  assert(start.head_start >= 0.0 && start.head_start < 1.0);
+  assert(start.ceilings.empty() || start.ceilings.size() == patch.sites.size());
   double extent = 0.0;
   for (const Vec2& site : patch.sites) extent = std::max(extent, site.norm());
   grid_ = SiteGrid{extent + spacing, support_radius};
@@ -71,11 +72,12 @@ Throat::Throat(std::uint32_t slot, const PatchFrame& frame, PatchSites patch, do
 
   const std::uint64_t count = patch.sites.size();
   const std::uint64_t stride = spreadingStride(count);
-  for (std::uint64_t site = 0; site < count; ++site) {
-    const std::uint64_t rank = site * stride % count;
-    rank_of_site_[site] = static_cast<std::uint32_t>(rank);
-    site_of_rank_[rank] = static_cast<std::uint32_t>(site);
+  for (std::uint64_t site = 0; site < count; ++site) site_of_rank_[site * stride % count] = static_cast<std::uint32_t>(site);
+  if (!start.ceilings.empty()) {
+    std::stable_sort(site_of_rank_.begin(), site_of_rank_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return start.ceilings[a] > start.ceilings[b]; });
   }
+  for (std::uint64_t rank = 0; rank < count; ++rank) rank_of_site_[site_of_rank_[rank]] = static_cast<std::uint32_t>(rank);
 }
 
 std::uint64_t Throat::enteringBound() const {

@@ -42,9 +42,15 @@ struct InletStep {
 
 class Throat {
  public:
-  /// Opens with an empty column of which `head_start` (0 <= . < 1) of a particle is already due. No particle is at z >= 0.
-  Throat(std::uint32_t slot, const PatchFrame& frame, PatchSites patch, double spacing, double support_radius,
-         double head_start = 0.0);
+  /// How a throat that follows another one starts.
+  struct Start {
+    double head_start = 0.0;       ///< 0 <= . < 1: the part of the next particle that is already due
+    std::vector<double> ceilings;  ///< empty, or by site the height that its first particle had better not exceed, m
+  };
+
+  /// Opens with an empty column: no particle is at z >= 0. Sites with low ceilings get late turns.
+  Throat(std::uint32_t slot, const PatchFrame& frame, const PatchSites& patch, double spacing, double support_radius,
+         const Start& start = Start{0.0, {}});
 
   /// Particles per second, flow / dx^3. Acts at once.
   void setRate(double rate) { rate_ = rate; }
@@ -69,6 +75,13 @@ class Throat {
   /// 0 beyond h outside, above h and below the throat. 0 for a sparse throat (gap > 1.5 dx), whose particles cannot hold
   /// blood back; they are released above the tissue's surface, so they need no opening. A site with a hole does not count.
   double openFraction(const Vec3& local) const;
+
+  /// visit(position, m) of the last particles to cross, up to a spacing above the patch: exact while they are emerging, and
+  /// beyond where the column would have them.
+  template <class Visit>
+  void forEachJustEmitted(Visit&& visit) const {
+    for (std::uint64_t j = crossed_; j > 0 && heightOf(j - 1) < 2.0 * release_height_; --j) visit(stateOf(j - 1).position);
+  }
 
   /// Of particles now behind the patch: those that vanish when the wound moves or closes.
   std::uint64_t unseen() const;

@@ -38,7 +38,7 @@ Result<std::uint32_t> WoundSet::add(const WoundDescription& wound) {
   if (Status status = checkNameAndDrive(wound); !status) return status;
   Result<Opening> opening = planOpening(wound);
   if (!opening) return opening.status();
-  Throat throat{freeSlot(), opening->frame, std::move(opening->patch), spacing_, support_radius_};
+  Throat throat{freeSlot(), opening->frame, opening->patch, spacing_, support_radius_};
   if (Status status = checkClear(throat, 0); !status) return status;
   const Result<double> rate = planRate(wound, throat);
   if (!rate) return rate.status();
@@ -66,12 +66,12 @@ Status WoundSet::update(const UpdateWound& change, const WithdrawThroat& withdra
 
   if (Status status = checkNameAndDrive(next); !status) return status;
   std::optional<Throat> reopened;
-  if (change.position || change.normal || change.tangent || change.shape) {
+  const WoundDescription& now = wound.description;
+  if (next.position != now.position || next.normal != now.normal || next.tangent != now.tangent || change.shape) {
     Result<Opening> opening = planOpening(next);
     if (!opening) return opening.status();
-    const double column = wound.throat.column();
-    reopened.emplace(wound.throat.slot(), opening->frame, std::move(opening->patch), spacing_, support_radius_,
-                     column - std::floor(column));
+    reopened.emplace(wound.throat.slot(), opening->frame, opening->patch, spacing_, support_radius_,
+                     startAfter(wound.throat, *opening));
     if (Status status = checkClear(*reopened, wound.id); !status) return status;
   }
   const Result<double> rate = planRate(next, reopened ? *reopened : wound.throat);
@@ -167,6 +167,23 @@ Result<WoundSet::Opening> WoundSet::planOpening(const WoundDescription& wound) c
   Opening opening{*frame, std::move(*patch)};
   if (Status status = checkInside(opening); !status) return status;
   return opening;
+}
+
+Throat::Start WoundSet::startAfter(const Throat& before, const Opening& opening) const {
+  Throat::Start start{before.column() - std::floor(before.column()), std::vector<double>(opening.patch.sites.size(), 0.0)};
+  const double separation = kSiteSeparation * spacing_;
+  double extent = spacing_;
+  for (const Vec2& site : opening.patch.sites) extent = std::max(extent, site.norm());
+  SiteGrid grid{extent, spacing_};
+  for (const Vec2& site : opening.patch.sites) grid.insert(site);
+  before.forEachJustEmitted([&](const Vec3& position) {
+    const Vec3 local = opening.frame.toLocal(nearestOffset(opening.frame.origin, position));
+    grid.forEachNear({local.x(), local.y()}, [&](std::uint32_t site, double squared) {
+      const double below = separation * separation - squared;
+      if (below > 0.0) start.ceilings[site] = std::min(start.ceilings[site], local.z() - std::sqrt(below));
+    });
+  });
+  return start;
 }
 
 Status WoundSet::checkInside(const Opening& opening) const {

@@ -32,8 +32,9 @@ class WoundSet {
   /// periodic side or over another wound's, a column faster than the scene's limit; capacity: too many wounds or sites.
   Result<std::uint32_t> add(const WoundDescription& wound);
 
-  /// Changes the fields that are given. A new position, normal, tangent or shape withdraws the throat and opens a new one,
-  /// which keeps the fraction of a particle that was due; flow and name act without. not_found: no such wound; else as add().
+  /// Changes the fields that are given. Another position, normal, tangent or any shape withdraws the throat and opens a new one,
+  /// which keeps the fraction of a particle that was due and keeps clear of what was just emitted; flow and name act without.
+  /// not_found: no such wound; else as add().
   Status update(const UpdateWound& change, const WithdrawThroat& withdraw);
 
   /// not_found: no such wound. What it emitted stays in the totals.
@@ -95,6 +96,7 @@ class WoundSet {
   Status unknown(std::uint32_t id) const;
   Status checkNameAndDrive(const WoundDescription& wound) const;
   Result<Opening> planOpening(const WoundDescription& wound) const;
+  Throat::Start startAfter(const Throat& before, const Opening& opening) const;
   Status checkInside(const Opening& opening) const;
   Status checkClear(const Throat& candidate, std::uint32_t except_id) const;
   Result<double> planRate(const WoundDescription& wound, const Throat& throat) const;

@@ -73,7 +73,9 @@ class ThroatWorld {
           ++it;
           continue;
         }
-        (throat.kinematics(tag).phase == InletPhase::throat ? withdrawn : released) += 1;
+        const InletState state = throat.kinematics(tag);
+        (state.phase == InletPhase::throat ? withdrawn : released) += 1;
+        if (state.phase == InletPhase::emerging) freed.push_back(state.position);
         it = tagged.erase(it);
       }
     };
@@ -91,6 +93,7 @@ class ThroatWorld {
 
   WoundSet set;
   std::map<std::uint32_t, InletState> tagged;
+  std::vector<Vec3> freed;  ///< where particles stood that a withdrawal set free, for the test to clear
   std::uint64_t emitted = 0, refused = 0, seen_crossing = 0, released = 0, withdrawn = 0;
 
  private:

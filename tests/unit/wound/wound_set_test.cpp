@@ -85,6 +85,34 @@ TEST(WoundSet, MovingAndReshapingKeepsTheVolumeExact) {
   EXPECT_EQ(world.seen_crossing, world.emitted);
 }
 
+/// The smallest distance, in spacings, between what a move by `shift` spacings set free and the throat that opened after it.
+double clearanceAfterMove(double shift) {
+  double nearest = 1e9;
+  ThroatWorld world{plainDescription()};
+  EXPECT_TRUE(world.set.add(discWound(0.004, 8e-6)).ok());
+  Vec3 position = Vec3::Zero();
+  for (int step = 1; step < 2000; ++step) {
+    world.step(1e-4);
+    if (step % 40 != 0) continue;
+    world.freed.clear();
+    position.x() += step % 800 < 400 ? shift * kDx : -shift * kDx;
+    UpdateWound change = moveChange(1, position);
+    change.shape = DiscPatch{0.004};
+    EXPECT_TRUE(world.set.update(change, world.withdrawing()).ok());
+    EXPECT_FALSE(world.freed.empty());
+    world.step(0.0);
+    for (const Vec3& freed : world.freed) {
+      for (const auto& [tag, state] : world.tagged) nearest = std::min(nearest, (state.position - freed).norm() / kDx);
+    }
+  }
+  return nearest;
+}
+
+TEST(WoundSet, ReopeningKeepsClearOfWhatWasJustEmitted) {
+  EXPECT_GE(clearanceAfterMove(0.0), 0.98);
+  for (const double shift : {0.1, 0.25, 0.5, 0.75, 1.0}) EXPECT_GE(clearanceAfterMove(shift), 0.85) << shift;
+}
+
 TEST(WoundSet, FlowAndNameChangeInPlace) {
   ThroatWorld world{plainDescription()};
   ASSERT_TRUE(world.set.add(discWound(0.003, 5e-6)).ok());
