@@ -134,7 +134,7 @@ Real TissueField<Real>::scaledFriction(Real share, Real distance) const {
 template <class Real>
 void TissueField<Real>::addPlane(const Plane& plane, Real distance, WallTerms<Real>& terms) const {
   const Share<Real> share = plane_table_->at(distance);
-  WallTerm<Real> term{};
+  WallTerm<Real> term;
   term.distance = distance;
   term.normal = plane.surface.normal();
   term.share = share.share;
@@ -162,7 +162,7 @@ void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Re
     slope[axis] = 0;
   }
   const SignedDistance<Real> nearest = obstacle.surface.at(x, y, z);
-  WallTerm<Real> term{};
+  WallTerm<Real> term;
   term.distance = nearest.value;
   term.normal = nearest.normal;
   term.share = table.full() * filled[0] * filled[1] * filled[2];
@@ -184,7 +184,7 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, WallTe
   const Share<Real> hollow = bowl.table.at(part.sphere);
   const std::array<Real, 3>& n = part.sphere_normal;
   const SignedDistance<Real> nearest = bowl.surface.at(x, y, z, part);
-  WallTerm<Real> term{};
+  WallTerm<Real> term;
   term.distance = nearest.value;
   term.normal = nearest.normal;
   if (part.plane <= -reach_) {
@@ -212,7 +212,23 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, WallTe
 }
 
 template <class Real>
+bool TissueField<Real>::touches(Real x, Real y, Real z) const {
+  for (const Plane& plane : planes_) {
+    if (plane.surface.value(x, y, z) < reach_) return true;
+  }
+  for (const Obstacle& obstacle : obstacles_) {
+    if (obstacle.surface.faceDistance(x, y, z) < reach_) return true;
+  }
+  for (const Bowl& bowl : bowls_) {
+    const auto part = bowl.surface.parts(x, y, z);
+    if (part.plane < reach_ && part.sphere < reach_) return true;
+  }
+  return false;
+}
+
+template <class Real>
 bool TissueField<Real>::sample(Real x, Real y, Real z, WallSample<Real>& out) const {
+  if (!touches(x, y, z)) return false;  // before the list of terms is made: most particles touch nothing
   WallTerms<Real> terms;
   for (const Plane& plane : planes_) {
     const Real distance = plane.surface.value(x, y, z);
@@ -222,7 +238,6 @@ bool TissueField<Real>::sample(Real x, Real y, Real z, WallSample<Real>& out) co
     if (obstacle.surface.faceDistance(x, y, z) < reach_) addObstacle(obstacle, x, y, z, terms);
   }
   for (const Bowl& bowl : bowls_) addBowl(bowl, x, y, z, terms);
-  if (terms.size() == 0) return false;
 
   const CombinedShare<Real> combined = combineShares(terms);
   out = {};
@@ -253,7 +268,7 @@ Real TissueField<Real>::distance(Real x, Real y, Real z) const {
 template <class Real>
 bool TissueField<Real>::project(std::array<Real, 3>& position, std::array<Real, 3>& normal) const {
   bool moved = false;
-  const auto pushOut = [&](Real distance, const std::array<Real, 3>& direction) {
+  const auto push_out = [&](Real distance, const std::array<Real, 3>& direction) {
     if (!(distance < 0)) return false;
     addScaled(position, gap_ - distance, direction);
     normal = direction;
@@ -263,15 +278,15 @@ bool TissueField<Real>::project(std::array<Real, 3>& position, std::array<Real, 
   for (int round = 0; round < kMostProjections; ++round) {
     bool inside = false;
     for (const Plane& plane : planes_) {
-      inside |= pushOut(plane.surface.value(position[0], position[1], position[2]), plane.surface.normal());
+      inside |= push_out(plane.surface.value(position[0], position[1], position[2]), plane.surface.normal());
     }
     for (const Obstacle& obstacle : obstacles_) {
       const SignedDistance<Real> nearest = obstacle.surface.at(position[0], position[1], position[2]);
-      inside |= pushOut(nearest.value, nearest.normal);
+      inside |= push_out(nearest.value, nearest.normal);
     }
     for (const Bowl& bowl : bowls_) {
       const SignedDistance<Real> nearest = bowl.surface.at(position[0], position[1], position[2]);
-      inside |= pushOut(nearest.value, nearest.normal);
+      inside |= push_out(nearest.value, nearest.normal);
     }
     if (!inside) break;
   }

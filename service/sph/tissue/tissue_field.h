@@ -75,6 +75,7 @@ class TissueField {
     ShareTable<Real> table;  ///< of the hollow
   };
 
+  bool touches(Real x, Real y, Real z) const;
   void addPlane(const Plane& plane, Real distance, WallTerms<Real>& terms) const;
   void addObstacle(const Obstacle& obstacle, Real x, Real y, Real z, WallTerms<Real>& terms) const;
   void addBowl(const Bowl& bowl, Real x, Real y, Real z, WallTerms<Real>& terms) const;

@@ -13,15 +13,14 @@
 
 namespace bleedsim::sph {
 
-/// What one wall (a plane, a block, a bowl) adds to a particle. No initial values, so that a list of them costs nothing for the
-/// particles that touch no wall: make one with {}.
+/// What one wall (a plane, a block, a bowl) adds to a particle.
 template <class Real>
 struct WallTerm {
-  Real distance;                 ///< m
-  std::array<Real, 3> normal;    ///< unit, into the blood
-  Real share;                    ///< L_k
-  std::array<Real, 3> gradient;  ///< grad L_k, 1/m
-  Real friction;                 ///< 1/m^2, <= 0
+  Real distance = 0;               ///< m
+  std::array<Real, 3> normal{};    ///< unit, into the blood
+  Real share = 0;                  ///< L_k
+  std::array<Real, 3> gradient{};  ///< grad L_k, 1/m
+  Real friction = 0;               ///< 1/m^2, <= 0
 };
 
 /// The walls that a particle touches. More than kMost at once are not resolved: the nearest ones count.
@@ -56,7 +55,7 @@ class WallTerms {
 
  private:
   int size_ = 0;
-  std::array<WallTerm<Real>, kMost> terms_;  ///< the first size_ are set
+  std::array<WallTerm<Real>, kMost> terms_;
 };
 
 template <class Real>

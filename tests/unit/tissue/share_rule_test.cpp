@@ -49,11 +49,7 @@ TEST(ShareRule, partialDerivatives) {
 }
 
 WallTerm<double> termOf(const std::array<double, 3>& normal, double share, double distance = 0.0) {
-  WallTerm<double> term{};
-  term.distance = distance;
-  term.normal = normal;
-  term.share = share;
-  return term;
+  return {.distance = distance, .normal = normal, .share = share};
 }
 
 WallTerms<double> threeWalls(const std::array<double, 3>& shares) {
