@@ -1,0 +1,28 @@
+// The network interfaces of this host and the kernel's receive buffer.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "service/status/status.h"
+
+namespace bleedsim::transport {
+
+struct NetworkInterface {
+  std::string name;
+  bool loopback = false;
+  bool up = false;
+};
+
+/// Every interface with an IPv4 address, in the kernel's order, each once.
+std::vector<NetworkInterface> listInterfaces();
+
+/// The interface of that name; not_found lists the existing ones, unavailable says that it is down.
+Result<NetworkInterface> findInterface(const std::string& name, const std::vector<NetworkInterface>& existing);
+
+/// net.core.rmem_max in bytes, 0 when it cannot be read: the largest receive buffer a process gets. Less than two frames
+/// (12 bytes per particle and position) loses frames.
+std::size_t receiveBufferLimit();
+
+}  // namespace bleedsim::transport
