@@ -1,0 +1,149 @@
+#include "service/scene/convert.h"
+
+#include "service/sph/world.h"
+
+namespace bleedsim::scene {
+namespace {
+
+constexpr double kCubicMetresPerMillilitre = 1e-6;
+constexpr double kPascalsPerMmHg = 133.322;
+
+sph::Vec3 toVec3(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::vector<sph::Vec2> toPoints(const google::protobuf::RepeatedPtrField<Vec2>& points) {
+  std::vector<sph::Vec2> result;
+  result.reserve(static_cast<std::size_t>(points.size()));
+  for (const Vec2& point : points) result.emplace_back(point.u(), point.v());
+  return result;
+}
+
+sph::Domain toDomain(const Domain& domain) {
+  return {.lower = toVec3(domain.lower_m()),
+          .upper = toVec3(domain.upper_m()),
+          .periodic = {domain.periodic_x(), domain.periodic_y(), domain.periodic_z()}};
+}
+
+sph::EffectSettings toEffects(const Effects& effects) {
+  sph::EffectSettings result;
+  if (effects.has_gravity()) result.gravity = sph::GravitySettings{toVec3(effects.gravity().acceleration_m_per_s2())};
+  if (effects.has_pressure()) result.pressure = sph::PressureSettings{effects.pressure().background_pressure_pa()};
+  if (effects.has_viscosity()) result.viscosity = sph::ViscositySettings{effects.viscosity().viscosity_pa_s()};
+  if (effects.has_applied_force()) result.applied_force = sph::AppliedForceSettings{effects.applied_force().max_sources()};
+  return result;
+}
+
+sph::TissueDescription toTissue(const Tissue& tissue) {
+  sph::TissueDescription result;
+  result.name = tissue.name();
+  result.slip = tissue.slip();
+  if (tissue.has_box()) {
+    const BoxTissue& box = tissue.box();
+    result.shape = sph::BoxShape{.lower = toVec3(box.lower_m()),
+                                 .upper = toVec3(box.upper_m()),
+                                 .obstacle = box.side() == BoxTissue::OBSTACLE,
+                                 .open_top = box.open_top()};
+  } else if (tissue.has_bowl()) {
+    const BowlTissue& bowl = tissue.bowl();
+    result.shape = sph::BowlShape{toVec3(bowl.rim_center_m()), bowl.sphere_radius_m(), bowl.depth_m()};
+  } else {
+    result.shape = sph::PlaneShape{toVec3(tissue.plane().point_m()), toVec3(tissue.plane().normal()).normalized()};
+  }
+  return result;
+}
+
+sph::PatchShape toPatch(const Wound& wound) {
+  switch (wound.shape_case()) {
+    case Wound::kEllipse:
+      return sph::EllipsePatch{wound.ellipse().semi_axis_u_m(), wound.ellipse().semi_axis_v_m()};
+    case Wound::kPolygon:
+      return sph::PolygonPatch{toPoints(wound.polygon().points_m())};
+    case Wound::kPolyline:
+      return sph::PolylinePatch{toPoints(wound.polyline().points_m()), wound.polyline().width_m()};
+    case Wound::kDisc:
+    case Wound::SHAPE_NOT_SET:
+      break;
+  }
+  return sph::DiscPatch{wound.disc().radius_m()};
+}
+
+sph::WoundDrive toDrive(const Wound& wound) {
+  if (wound.has_pressure()) {
+    return sph::PressureDriveSettings{.inlet_pressure = wound.pressure().inlet_pressure_mmhg() * kPascalsPerMmHg,
+                                      .discharge_coefficient = wound.pressure().discharge_coefficient()};
+  }
+  return sph::FlowDrive{wound.flow_ml_per_s() * kCubicMetresPerMillilitre};
+}
+
+sph::WoundDescription toWound(const Wound& wound) {
+  return {.name = wound.name(),
+          .position = toVec3(wound.position_m()),
+          .normal = toVec3(wound.normal()).normalized(),
+          .tangent = toVec3(wound.tangent()),
+          .shape = toPatch(wound),
+          .drive = toDrive(wound)};
+}
+
+sph::FluidBlock toFluidBlock(const FluidBlock& block) {
+  sph::FluidBlock result{.lower = toVec3(block.lower_m()),
+                         .upper = toVec3(block.upper_m()),
+                         .velocity = toVec3(block.velocity_m_per_s()),
+                         .jitter = block.jitter(),
+                         .viscosity = std::nullopt};
+  if (block.has_viscosity_pa_s()) result.viscosity = block.viscosity_pa_s();
+  return result;
+}
+
+sph::WorldDescription toWorld(const Scene& scene) {
+  sph::WorldDescription world;
+  world.seed = scene.seed();
+  world.domain = toDomain(scene.domain());
+  world.capacity = scene.domain().capacity();
+  world.spacing = scene.resolution().spacing_m();
+  world.support_ratio = scene.resolution().support_ratio();
+  world.rest_density = scene.fluid().density_kg_per_m3();
+  world.compressibility = {.mach_factor = scene.compressibility().mach_factor(),
+                           .design_speed = scene.compressibility().design_speed_m_per_s(),
+                           .max_fall_or_depth = scene.compressibility().max_fall_or_depth_m()};
+  world.effects = toEffects(scene.effects());
+  for (const Tissue& tissue : scene.tissue()) world.tissue.push_back(toTissue(tissue));
+  for (const Wound& wound : scene.wounds()) world.wounds.push_back(toWound(wound));
+  for (const FluidBlock& block : scene.fluid_blocks()) world.fluid_blocks.push_back(toFluidBlock(block));
+  world.max_wounds = scene.commands().max_wounds();
+  if (scene.has_max_dt_s()) world.max_dt = scene.max_dt_s();
+  return world;
+}
+
+std::uint32_t toAttributes(const Output& output) {
+  std::uint32_t bits = 0;
+  for (const int attribute : output.attributes()) {
+    if (attribute == Output::VELOCITY) bits |= sph::kFrameVelocity;
+    if (attribute == Output::DENSITY) bits |= sph::kFrameDensity;
+    if (attribute == Output::VISCOSITY) bits |= sph::kFrameViscosity;
+  }
+  return bits;
+}
+
+std::vector<std::string> effectNames(const Effects& effects) {
+  std::vector<std::string> names;
+  if (effects.has_gravity()) names.emplace_back("gravity");
+  if (effects.has_pressure()) names.emplace_back("pressure");
+  if (effects.has_viscosity()) names.emplace_back("viscosity");
+  if (effects.has_applied_force()) names.emplace_back("applied_force");
+  return names;
+}
+
+}  // namespace
+
+SceneDescription convert(const Scene& scene) {
+  return {.name = scene.name(),
+          .description = scene.description(),
+          .frame_id = scene.frame_id(),
+          .world = toWorld(scene),
+          .frame_rate = scene.output().frame_rate_hz(),
+          .attributes = toAttributes(scene.output()),
+          .instrument_expiry = scene.commands().instrument_expiry_s(),
+          .normalized_text = {},
+          .effects = effectNames(scene.effects())};
+}
+
+}  // namespace bleedsim::scene

@@ -1,0 +1,12 @@
+// A valid scene message to SI units and the solver's types.
+#pragma once
+
+#include "idl/scene.pb.h"
+#include "service/scene/scene.h"
+
+namespace bleedsim::scene {
+
+/// The message must have its defaults filled in and no problems. normalized_text is left empty.
+SceneDescription convert(const Scene& scene);
+
+}  // namespace bleedsim::scene

@@ -1,0 +1,77 @@
+#include "service/scene/fill_defaults.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "service/scene/number_walk.h"
+
+namespace bleedsim::scene {
+namespace {
+
+void fillVec3(Vec3& vector, double x, double y, double z) {
+  vector.set_x(x);
+  vector.set_y(y);
+  vector.set_z(z);
+}
+
+void fillEffects(Effects& effects) {
+  if (effects.has_gravity() && !effects.gravity().has_acceleration_m_per_s2()) {
+    fillVec3(*effects.mutable_gravity()->mutable_acceleration_m_per_s2(), 0.0, 0.0, -9.81);
+  }
+  if (effects.has_viscosity() && !effects.viscosity().has_viscosity_pa_s()) {
+    effects.mutable_viscosity()->set_viscosity_pa_s(0.00345);
+  }
+  if (effects.has_applied_force() && !effects.applied_force().has_max_sources()) {
+    effects.mutable_applied_force()->set_max_sources(64);
+  }
+}
+
+void fillTissue(Tissue& tissue) {
+  if (!tissue.has_slip()) tissue.set_slip(0.0);
+  if (tissue.has_plane()) tissue.mutable_plane()->mutable_point_m();
+  if (tissue.has_bowl()) tissue.mutable_bowl()->mutable_rim_center_m();
+}
+
+void fillWound(Wound& wound) {
+  wound.mutable_position_m();
+  if (!wound.has_normal()) fillVec3(*wound.mutable_normal(), 0.0, 0.0, 1.0);
+  const Vec3& tangent = wound.tangent();
+  if (wound.has_tangent() && tangent.x() == 0.0 && tangent.y() == 0.0 && tangent.z() == 0.0) wound.clear_tangent();
+  if (wound.has_pressure() && !wound.pressure().has_discharge_coefficient()) {
+    wound.mutable_pressure()->set_discharge_coefficient(0.61);
+  }
+}
+
+/// Rising, each once; NONE beside another attribute is kept for the check that refuses it.
+void sortAttributes(Output& output) {
+  std::vector<int> values{output.attributes().begin(), output.attributes().end()};
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  if (values == std::vector<int>{Output::NONE}) values.clear();
+  output.mutable_attributes()->Assign(values.begin(), values.end());
+}
+
+}  // namespace
+
+void fillDefaults(Scene& scene) {
+  if (!scene.has_seed()) scene.set_seed(1);
+  if (scene.frame_id().empty()) scene.set_frame_id("bleedsim");
+  if (scene.has_resolution() && !scene.resolution().has_support_ratio()) scene.mutable_resolution()->set_support_ratio(2.0);
+  if (!scene.fluid().has_density_kg_per_m3()) scene.mutable_fluid()->set_density_kg_per_m3(1060.0);
+  if (scene.has_compressibility() && !scene.compressibility().has_mach_factor()) {
+    scene.mutable_compressibility()->set_mach_factor(10.0);
+  }
+  fillEffects(*scene.mutable_effects());
+  for (Tissue& tissue : *scene.mutable_tissue()) fillTissue(tissue);
+  for (Wound& wound : *scene.mutable_wounds()) fillWound(wound);
+  for (FluidBlock& block : *scene.mutable_fluid_blocks()) block.mutable_velocity_m_per_s();
+  Output& output = *scene.mutable_output();
+  if (!output.has_frame_rate_hz()) output.set_frame_rate_hz(60.0);
+  sortAttributes(output);
+  Commands& commands = *scene.mutable_commands();
+  if (!commands.has_instrument_expiry_s()) commands.set_instrument_expiry_s(0.1);
+  if (!commands.has_max_wounds()) commands.set_max_wounds(64);
+  clearNegativeZeros(scene);
+}
+
+}  // namespace bleedsim::scene

@@ -1,0 +1,27 @@
+#include "service/scene/problem_list.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace bleedsim::scene {
+
+void ProblemList::add(std::string_view where, std::string_view what) {
+  ++count_;
+  if (kept_.size() < kMaxKept) kept_.push_back(fmt::format("{}: {}", where, what));
+}
+
+void ProblemList::requireInRange(std::string_view path, double value, const Range& range) {
+  if (!std::isfinite(value) || (value >= range.lower && value <= range.upper)) return;
+  const std::string_view hint = value == 0.0 ? "; 0 also stands for a missing field" : "";
+  add(path, fmt::format("value {} is out of range, allowed {} to {} ({}){}", value, range.lower, range.upper, range.unit, hint));
+}
+
+Status ProblemList::toStatus() const {
+  if (empty()) return {};
+  std::string message = fmt::format("the scene has {} problem{}:\n{}", count_, count_ == 1 ? "" : "s", fmt::join(kept_, "\n"));
+  if (count_ > kept_.size()) message += fmt::format("\n... and {} more", count_ - kept_.size());
+  return {StatusCode::invalid_argument, std::move(message)};
+}
+
+}  // namespace bleedsim::scene

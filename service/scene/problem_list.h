@@ -1,0 +1,36 @@
+// The problems of one scene, gathered so that a person sees them all at once.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "service/scene/limits.h"
+#include "service/status/status.h"
+
+namespace bleedsim::scene {
+
+class ProblemList {
+ public:
+  /// Further problems are counted, not kept.
+  static constexpr std::size_t kMaxKept = 200;
+
+  /// "where: what"; `where` is a field's path or a place in the text.
+  void add(std::string_view where, std::string_view what);
+
+  /// Adds a problem unless the value is in the range. Values that are not finite are reported by reportNonFinite alone.
+  void requireInRange(std::string_view path, double value, const Range& range);
+
+  bool empty() const { return count_ == 0; }
+  std::size_t count() const { return count_; }
+
+  /// ok, or invalid_argument with one problem per line.
+  Status toStatus() const;
+
+ private:
+  std::vector<std::string> kept_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace bleedsim::scene

@@ -1,0 +1,41 @@
+// A scene: protobuf text of idl/scene.proto, checked and turned into what a world is made from.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "service/sph/world_description.h"
+#include "service/status/status.h"
+
+namespace bleedsim::scene {
+
+/// Longest scene text that is read, bytes.
+inline constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20;
+
+/// A valid scene in SI units.
+struct SceneDescription {
+  std::string name;
+  std::string description;
+  std::string frame_id;  ///< coordinate frame of all positions, "bleedsim" if the scene names none
+  sph::WorldDescription world;
+  double frame_rate = 60.0;          ///< frames per simulated second, 1/s
+  std::uint32_t attributes = 0;      ///< sph::FrameAttribute bits of a frame beside positions and ids
+  double instrument_expiry = 0.1;    ///< wall time after which a silent instrument ends, s
+  std::string normalized_text;       ///< the scene with every default filled in; parses to this description
+  std::vector<std::string> effects;  ///< names of the enabled effects, in the solver's order
+};
+
+/// Reads and checks a scene. invalid_argument with every problem found, one per line: the field's path (or line:column of the
+/// text), the value and what is allowed. What only the solver can tell (a wound's speed against the speed of sound, the exact
+/// number of seeded particles) is left to sph::createWorld.
+Result<SceneDescription> parseScene(std::string_view text);
+
+/// parseScene() of a file. not_found or io if it cannot be read, invalid_argument if it is larger than kMaxSceneBytes or not a
+/// valid scene; the message names the path.
+Result<SceneDescription> loadScene(const std::filesystem::path& path);
+
+}  // namespace bleedsim::scene

@@ -1,0 +1,91 @@
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "service/scene/validate.h"
+
+namespace bleedsim::scene {
+namespace {
+
+struct Side {
+  char axis;
+  double length;  ///< m
+  bool periodic;
+};
+
+std::array<Side, 3> sidesOf(const Domain& domain) {
+  return {{{'x', domain.upper_m().x() - domain.lower_m().x(), domain.periodic_x()},
+           {'y', domain.upper_m().y() - domain.lower_m().y(), domain.periodic_y()},
+           {'z', domain.upper_m().z() - domain.lower_m().z(), domain.periodic_z()}}};
+}
+
+/// `support` is the support radius, m; 0 if it is not known because the resolution is wrong.
+void validateSides(const Domain& domain, double support, ProblemList& problems) {
+  double cells = 1.0;
+  for (const Side& side : sidesOf(domain)) {
+    if (side.length > kMaxDomainSide) {
+      problems.add("domain",
+                   fmt::format("the {} side measures {} m, allowed are at most {} m", side.axis, side.length, kMaxDomainSide));
+    }
+    if (support <= 0.0) continue;
+    if (side.periodic && side.length < kMinPeriodicSide * support) {
+      problems.add(
+          fmt::format("domain.periodic_{}", side.axis),
+          fmt::format("the side measures {} m, a periodic one needs at least {} m, three support radii; widen the domain or "
+                      "lower resolution.spacing_m",
+                      side.length, kMinPeriodicSide * support));
+    }
+    cells *= std::ceil(side.length / support);
+  }
+  if (cells > kMaxCells) {
+    problems.add("domain",
+                 fmt::format("holds {} cells of one support radius ({} m), allowed are at most {}; shrink the domain or "
+                             "raise resolution.spacing_m",
+                             cells, support, kMaxCells));
+  }
+}
+
+/// The support radius, m, or 0.
+double validateResolution(const Scene& scene, ProblemList& problems) {
+  if (!scene.has_resolution()) {
+    problems.add("resolution", "is required: give resolution { spacing_m: ... }");
+    return 0.0;
+  }
+  const std::size_t before = problems.count();
+  const Resolution& resolution = scene.resolution();
+  problems.requireInRange("resolution.spacing_m", resolution.spacing_m(), kSpacing);
+  problems.requireInRange("resolution.support_ratio", resolution.support_ratio(), kSupportRatio);
+  const double support = resolution.spacing_m() * resolution.support_ratio();
+  return problems.count() == before && std::isfinite(support) ? support : 0.0;
+}
+
+void validateCompressibility(const Scene& scene, ProblemList& problems) {
+  if (!scene.has_compressibility()) {
+    problems.add("compressibility", "is required: give compressibility { design_speed_m_per_s: ... }");
+    return;
+  }
+  const Compressibility& settings = scene.compressibility();
+  problems.requireInRange("compressibility.mach_factor", settings.mach_factor(), kMachFactor);
+  problems.requireInRange("compressibility.design_speed_m_per_s", settings.design_speed_m_per_s(), kDesignSpeed);
+  problems.requireInRange("compressibility.max_fall_or_depth_m", settings.max_fall_or_depth_m(), kMaxFallOrDepth);
+}
+
+}  // namespace
+
+void validateDomain(const Scene& scene, ProblemList& problems) {
+  const double support = validateResolution(scene, problems);
+  if (scene.has_domain()) {
+    const Domain& domain = scene.domain();
+    problems.requireInRange("domain.capacity", domain.capacity(), kCapacity);
+    if (requireBox("domain", domain.has_lower_m(), domain.lower_m(), domain.has_upper_m(), domain.upper_m(), problems)) {
+      validateSides(domain, support, problems);
+    }
+  } else {
+    problems.add("domain", "is required: give domain { lower_m {...} upper_m {...} capacity: ... }");
+  }
+  problems.requireInRange("fluid.density_kg_per_m3", scene.fluid().density_kg_per_m3(), kDensity);
+  validateCompressibility(scene, problems);
+  if (scene.has_max_dt_s()) problems.requireInRange("max_dt_s", scene.max_dt_s(), kMaxDt);
+}
+
+}  // namespace bleedsim::scene
