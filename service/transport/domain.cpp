@@ -63,11 +63,11 @@ std::string configXml(const std::string& interface, bool loopback, const std::st
                                : "<MaxMessageSize>1460B</MaxMessageSize>";
   const std::string tag_element = tag.empty() ? std::string{} : fmt::format("<Tag>{}</Tag>", tag);
   return fmt::format(
-      "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces>{}</General>"
+      "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>{}</General>"
       "<Discovery>{}<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>100</MaxAutoParticipantIndex>"
       "<SPDPInterval>1s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
       "<Internal><SocketReceiveBufferSize max=\"4MiB\"/></Internal></Domain></CycloneDDS>",
-      interface, sizes, tag_element);
+      interface, loopback ? " multicast=\"false\"" : "", sizes, tag_element);
 }
 
 Result<std::shared_ptr<DomainShare>> joinDomain(DomainOptions options) {

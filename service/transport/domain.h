@@ -15,8 +15,8 @@ inline constexpr std::uint32_t kMaxDomain = 230;  // above, the UDP ports of the
 /// What distinguishes the configuration of a domain.
 struct DomainOptions {
   std::uint32_t domain = 0;
-  std::string interface;  ///< empty: "lo", so that nothing leaves the host unless someone asks for it
-  std::string tag;        ///< participants with another tag never meet; empty: $BLEEDSIM_DDS_TAG, or none
+  std::string interface {};  ///< empty: "lo", so that nothing leaves the host unless someone asks for it
+  std::string tag{};         ///< participants with another tag never meet; empty: $BLEEDSIM_DDS_TAG, or none
 
   bool operator==(const DomainOptions&) const = default;
 };
