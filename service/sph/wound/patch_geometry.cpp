@@ -66,15 +66,15 @@ Result<PatchFrame> makePatchFrame(const Vec3& origin, const Vec3& normal, const 
   PatchFrame frame;
   frame.origin = origin;
   frame.normal = (normal / scale).normalized();  // scaled first, or huge components overflow the square
-  const auto inPlane = [&](const Vec3& vector) -> Vec3 { return vector - vector.dot(frame.normal) * frame.normal; };
+  const auto in_plane = [&](const Vec3& vector) -> Vec3 { return vector - vector.dot(frame.normal) * frame.normal; };
   Vec3 u = Vec3::Zero();
-  if (const double longest = tangent.cwiseAbs().maxCoeff(); longest > 0.0) u = inPlane(tangent / longest);
+  if (const double longest = tangent.cwiseAbs().maxCoeff(); longest > 0.0) u = in_plane(tangent / longest);
   if (u.norm() < 1e-6) {
     Eigen::Index axis = 0;
     frame.normal.cwiseAbs().minCoeff(&axis);
-    u = inPlane(Vec3::Unit(axis));
+    u = in_plane(Vec3::Unit(axis));
   }
-  frame.u = inPlane(u.normalized()).normalized();
+  frame.u = in_plane(u.normalized()).normalized();
   frame.v = frame.normal.cross(frame.u);
   return frame;
 }

@@ -196,16 +196,16 @@ Result<PatchSites> makePatchSites(const PatchShape& shape, double spacing) {
     return Status{StatusCode::capacity, textOf("patch reaches ", extent, " m from its origin; at a spacing of ", spacing,
                                                " m at most ", kMaxPatchSpacings * spacing, " m are possible")};
   }
-  const auto tooMany = [&] {
+  const auto too_many = [&] {
     return Status{StatusCode::capacity,
                   textOf("patch area ", result.area, " m^2 needs more than ", kMaxPatchSites, " emission sites at a spacing of ",
                          spacing, " m; make it smaller, or the spacing larger")};
   };
-  if (wanted > static_cast<double>(kMaxPatchSites)) return tooMany();
+  if (wanted > static_cast<double>(kMaxPatchSites)) return too_many();
   const auto* line = std::get_if<PolylinePatch>(&shape);
-  if (line != nullptr && polylineLength(*line) > static_cast<double>(kMaxPatchSites) * spacing) return tooMany();
+  if (line != nullptr && polylineLength(*line) > static_cast<double>(kMaxPatchSites) * spacing) return too_many();
   result.sites = line != nullptr ? polylineSites(*line, spacing, extent) : latticeSites(shape, spacing, wanted);
-  if (result.sites.size() > kMaxPatchSites) return tooMany();
+  if (result.sites.size() > kMaxPatchSites) return too_many();
   result.gap = spacing * std::max(1.0, static_cast<double>(result.sites.size()) / wanted);
   return result;
 }

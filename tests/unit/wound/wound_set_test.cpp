@@ -173,7 +173,8 @@ TEST(WoundSet, TheLargestSlotWorks) {
   description.domain.upper = Vec3::Constant(1.0);
   ThroatWorld world{description};
   for (int i = 0; i < static_cast<int>(kMaxInletSlots); ++i) {
-    ASSERT_TRUE(world.set.add(discAt({0.01 * (i % 100), 0.01 * (i / 100), 0}, 0.0004, 1e-9)).ok());
+    const int row = i / 100;
+    ASSERT_TRUE(world.set.add(discAt({0.01 * (i % 100), 0.01 * row, 0}, 0.0004, 1e-9)).ok());
   }
   const auto more = world.set.add(discAt({-0.5, 0, 0}, 0.0004, 1e-9));
   EXPECT_EQ(more.status().code(), StatusCode::capacity);
