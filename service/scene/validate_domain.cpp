@@ -24,22 +24,23 @@ void validateSides(const Domain& domain, double support, ProblemList& problems) 
   double cells = 1.0;
   for (const Side& side : sidesOf(domain)) {
     if (side.length > kMaxDomainSide) {
-      problems.add("domain",
-                   fmt::format("the {} side measures {} m, allowed are at most {} m", side.axis, side.length, kMaxDomainSide));
+      problems.add("domain", fmt::format("the {} side measures {:.6g} m, allowed are at most {} m", side.axis, side.length,
+                                         kMaxDomainSide));
     }
     if (support <= 0.0) continue;
     if (side.periodic && side.length < kMinPeriodicSide * support) {
       problems.add(
           fmt::format("domain.periodic_{}", side.axis),
-          fmt::format("the side measures {} m, a periodic one needs at least {} m, three support radii; widen the domain or "
-                      "lower resolution.spacing_m",
-                      side.length, kMinPeriodicSide * support));
+          fmt::format(
+              "the side measures {:.6g} m, a periodic one needs at least {:.6g} m, three support radii; widen the domain or "
+              "lower resolution.spacing_m",
+              side.length, kMinPeriodicSide * support));
     }
     cells *= std::ceil(side.length / support);
   }
   if (cells > kMaxCells) {
     problems.add("domain",
-                 fmt::format("holds {} cells of one support radius ({} m), allowed are at most {}; shrink the domain or "
+                 fmt::format("holds {} cells of one support radius ({:.6g} m), allowed are at most {}; shrink the domain or "
                              "raise resolution.spacing_m",
                              cells, support, kMaxCells));
   }

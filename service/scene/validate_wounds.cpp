@@ -39,8 +39,8 @@ void validatePolygon(const std::string& path, const Polygon& polygon, ProblemLis
   if (problems.count() != before) return;
   const double area = polygonArea(polygon.points_m());
   if (area < kMinPatchArea) {
-    problems.add(path, fmt::format("encloses {} m^2, at least {} m^2 are needed; give the outline in order, once around", area,
-                                   kMinPatchArea));
+    problems.add(path, fmt::format("encloses {:.6g} m^2, at least {} m^2 are needed; give the outline in order, once around",
+                                   area, kMinPatchArea));
   }
 }
 
@@ -54,7 +54,8 @@ void validatePolyline(const std::string& path, const Polyline& line, ProblemList
     length += std::hypot(line.points_m(i).u() - line.points_m(i - 1).u(), line.points_m(i).v() - line.points_m(i - 1).v());
   }
   if (length < kPatchLength.lower) {
-    problems.add(path + ".points_m", fmt::format("the line is {} m long, at least {} m are needed", length, kPatchLength.lower));
+    problems.add(path + ".points_m",
+                 fmt::format("the line is {:.6g} m long, at least {} m are needed", length, kPatchLength.lower));
   }
 }
 
