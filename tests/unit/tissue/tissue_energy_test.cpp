@@ -17,13 +17,17 @@ struct Vessel {
   std::vector<TissueDescription> tissue;
 };
 
+void PrintTo(const Vessel& one, std::ostream* out) { *out << one.name; }  // NOLINT: the name is GoogleTest's
+
 class Blood {
  public:
   Blood(const Vessel& vessel, double support_ratio)
       : settings_{settingsFor(support_ratio)}, field_{fieldOf<double>(vessel.tissue, support_ratio)} {
     const double side = kAcross * kSpacing;
     for (int cell = 0; cell < kAcross * kAcross * kAcross; ++cell) {
-      const Vec3 at = kSpacing * Vec3(cell % kAcross + 0.5, cell / kAcross % kAcross + 0.5, cell / (kAcross * kAcross) + 0.5);
+      const int row = cell / kAcross;
+      const int layer = row / kAcross;
+      const Vec3 at = kSpacing * Vec3(cell % kAcross + 0.5, row % kAcross + 0.5, layer + 0.5);
       if (field_.distance(at.x(), at.y(), at.z()) < 0.25 * kSpacing) continue;
       const double x = at.x() / side * std::numbers::pi;
       const double z = at.z() / side * std::numbers::pi;

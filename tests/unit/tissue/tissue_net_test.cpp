@@ -43,6 +43,8 @@ struct Scene {
   std::vector<TissueDescription> tissue;
 };
 
+void PrintTo(const Scene& one, std::ostream* out) { *out << one.name; }  // NOLINT: the name is GoogleTest's
+
 class TissueNetTest : public testing::TestWithParam<Scene> {};
 
 TEST_P(TissueNetTest, mayTouchNeverMissesAWall) {
