@@ -59,15 +59,18 @@ Result<Entity> configureDomain(const DomainOptions& options) {
 }  // namespace
 
 std::string configXml(const std::string& interface, bool loopback, const std::string& tag) {
-  const char* sizes = loopback ? "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize>"
-                               : "<MaxMessageSize>1460B</MaxMessageSize>";
+  // Loopback carries no multicast; saying so keeps the middleware from warning about it.
+  const char* sizes =
+      loopback
+          ? "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize>"
+          : "<MaxMessageSize>1460B</MaxMessageSize>";
   const std::string tag_element = tag.empty() ? std::string{} : fmt::format("<Tag>{}</Tag>", tag);
   return fmt::format(
-      "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>{}</General>"
+      "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces>{}</General>"
       "<Discovery>{}<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>100</MaxAutoParticipantIndex>"
       "<SPDPInterval>1s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
       "<Internal><SocketReceiveBufferSize max=\"4MiB\"/></Internal></Domain></CycloneDDS>",
-      interface, loopback ? " multicast=\"false\"" : "", sizes, tag_element);
+      interface, sizes, tag_element);
 }
 
 Result<std::shared_ptr<DomainShare>> joinDomain(DomainOptions options) {
