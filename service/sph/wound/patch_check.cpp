@@ -26,7 +26,7 @@ Status checkPoints(const char* shape, const std::vector<Vec2>& points, std::size
   const std::size_t pairs = closed ? points.size() : points.size() - 1;
   for (std::size_t i = 0; i < pairs; ++i) {
     const std::size_t next = (i + 1) % points.size();
-    if ((points[next] - points[i]).norm() < kMinPatchLength) {
+    if ((points[next] - points[i]).norm() < kMinPointDistance) {
       return invalid(textOf(shape, " patch points ", i, " and ", next, " coincide at ", textOfPoint(points[i]),
                             " m; leave one out", closed ? " (the last point joins the first by itself)" : ""));
     }

@@ -8,9 +8,10 @@
 
 namespace bleedsim::sph {
 
-inline constexpr double kMinPatchLength = 1e-6;  ///< m, of a radius, semi-axis, width or polyline
-inline constexpr double kMaxPatchLength = 1.0;   ///< m, of these and of every coordinate
-inline constexpr double kMinPatchArea = 1e-12;   ///< m^2
+inline constexpr double kMinPatchLength = 1e-5;    ///< m, of a radius, semi-axis or width
+inline constexpr double kMaxPatchLength = 0.1;     ///< m, of these and of every coordinate
+inline constexpr double kMinPatchArea = 1e-10;     ///< m^2
+inline constexpr double kMinPointDistance = 1e-7;  ///< m, of consecutive points
 inline constexpr std::size_t kMaxPatchPoints = 256;
 
 /// invalid_argument naming the value and the allowed range: every number finite and within the limits above, a polygon of

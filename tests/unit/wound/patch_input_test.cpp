@@ -37,7 +37,7 @@ TEST(CheckPatch, RefusesBadShapesByName) {
       {DiscPatch{-0.001}, "radius is -0.001 m"},
       {DiscPatch{kNan}, "radius is nan"},
       {DiscPatch{kInf}, "radius is inf"},
-      {DiscPatch{2.0}, "radius is 2 m; allowed are 1e-06 to 1 m"},
+      {DiscPatch{2.0}, "radius is 2 m; allowed are 1e-05 to 0.1 m"},
       {EllipsePatch{0.0, 0.001}, "semi_axis_u"},
       {EllipsePatch{0.001, kNan}, "semi_axis_v"},
       {PolygonPatch{{{0, 0}, {1, 0}}}, "2 points; allowed are 3 to 256"},

@@ -45,7 +45,7 @@ std::vector<ShapeCase> shapeCases() {
   return {
       {"Disc", DiscPatch{0.005}, kPi * 25e-6, 76, 90},
       {"SmallDisc", DiscPatch{0.0004}, kPi * 0.16e-6, 1, 1},
-      {"TinyDisc", DiscPatch{1e-6}, kPi * 1e-12, 1, 1},
+      {"TinyDisc", DiscPatch{1e-5}, kPi * 1e-10, 1, 1},
       {"Ellipse", EllipsePatch{0.008, 0.003}, kPi * 24e-6, 73, 85},
       {"NarrowEllipse", EllipsePatch{0.008, 0.0003}, kPi * 2.4e-6, 12, 17},
       {"Square", square, 1e-4, 100, 100},
@@ -102,14 +102,14 @@ TEST(PatchSites, SelfCrossingPolylineKeepsItsDistances) {
 }
 
 TEST(PatchSites, TooManySitesAreRefusedWithTheLimit) {
-  const auto wide = makePatchSites(DiscPatch{0.5}, kDx);
+  const auto wide = makePatchSites(DiscPatch{0.1}, 2e-4);
   ASSERT_FALSE(wide.ok());
   EXPECT_EQ(wide.status().code(), StatusCode::capacity);
   EXPECT_NE(wide.status().message().find("65535"), std::string::npos) << wide.status().message();
-  const auto far = makePatchSites(PolylinePatch{{{0, 0}, {1, 0}}, 1e-5}, 1e-4);
+  const auto far = makePatchSites(PolylinePatch{{{0, 0}, {0.1, 0}}, 1e-5}, 2e-5);
   ASSERT_FALSE(far.ok());
   EXPECT_EQ(far.status().code(), StatusCode::capacity);
-  EXPECT_NE(far.status().message().find("0.4096"), std::string::npos) << far.status().message();
+  EXPECT_NE(far.status().message().find("0.08192"), std::string::npos) << far.status().message();
 }
 
 TEST(PatchFrame, IsOrthonormalForEveryNormalAndTangent) {
