@@ -3,12 +3,21 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <utility>
 
 namespace bleedsim::scene {
 
 void ProblemList::add(std::string_view where, std::string_view what) {
   ++count_;
-  if (kept_.size() < kMaxKept) kept_.push_back(fmt::format("{}: {}", where, what));
+  if (kept_.size() >= kMaxKept) return;
+  std::string problem = fmt::format("{}: {}", where, what);
+  if (problem.size() > kMaxBytes) {
+    std::size_t end = kMaxBytes;
+    while (end > 0 && (static_cast<unsigned char>(problem[end]) & 0xC0) == 0x80) --end;  // not inside a UTF-8 character
+    problem.resize(end);
+    problem += "...";
+  }
+  kept_.push_back(std::move(problem));
 }
 
 void ProblemList::requireInRange(std::string_view path, double value, const Range& range) {

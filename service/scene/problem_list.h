@@ -16,12 +16,17 @@ class ProblemList {
   /// Further problems are counted, not kept.
   static constexpr std::size_t kMaxKept = 200;
 
+  /// Bytes of one problem; the rest is cut off.
+  static constexpr std::size_t kMaxBytes = 1000;
+
   /// "where: what"; `where` is a field's path or a place in the text.
   void add(std::string_view where, std::string_view what);
 
   /// Adds a problem unless the value is in the range. Values that are not finite are reported by reportNonFinite alone.
   void requireInRange(std::string_view path, double value, const Range& range);
 
+  /// True once further problems are only counted: describing them is not worth the time.
+  bool full() const { return count_ >= kMaxKept; }
   bool empty() const { return count_ == 0; }
   std::size_t count() const { return count_; }
 

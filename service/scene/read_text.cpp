@@ -1,5 +1,6 @@
 #include "service/scene/read_text.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <google/protobuf/descriptor.h>
@@ -44,14 +45,25 @@ std::string explain(const std::string& message) {
                          : fmt::format("{}; did you mean '{}'?", start, nearest);
 }
 
+/// Messages quote the text, which may hold any byte.
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
 class TextProblems final : public google::protobuf::io::ErrorCollector {
  public:
   explicit TextProblems(ProblemList& problems) : problems_{problems} {}
 
   void AddError(int line, google::protobuf::io::ColumnNumber column, const std::string& message) override {
+    if (problems_.full()) {
+      problems_.add("", "");
+      return;
+    }
     // A line below 0 is protobuf's way of speaking about the whole text.
     const std::string where = line < 0 ? "text" : fmt::format("line {}:{}", line + 1, column + 1);
-    problems_.add(where, explain(message));
+    problems_.add(where, printable(explain(message)));
   }
   // The parser warns about what it is told to skip: unknown fields.
   void AddWarning(int line, google::protobuf::io::ColumnNumber column, const std::string& message) override {

@@ -22,8 +22,8 @@ void validateFluidBlocks(const Scene& scene, ProblemList& problems);
 /// Names and the description.
 void validateText(const Scene& scene, ProblemList& problems);
 
-/// UTF-8 of at most 64 bytes without control characters.
-void requireName(std::string_view path, std::string_view name, ProblemList& problems);
+/// UTF-8 of at most 64 bytes without control characters. True if it is.
+bool requireName(std::string_view path, std::string_view name, ProblemList& problems);
 /// Each coordinate within limits.h.
 void requirePoint(std::string_view path, const Vec3& point, ProblemList& problems);
 /// Not zero; tiny and huge lengths are refused as well, since they do not normalise well.

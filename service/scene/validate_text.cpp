@@ -54,8 +54,10 @@ void requirePrintable(std::string_view path, std::string_view text, int most_byt
 
 }  // namespace
 
-void requireName(std::string_view path, std::string_view name, ProblemList& problems) {
+bool requireName(std::string_view path, std::string_view name, ProblemList& problems) {
+  const std::size_t before = problems.count();
   requirePrintable(path, name, kMaxNameBytes, false, problems);
+  return problems.count() == before;
 }
 
 void validateText(const Scene& scene, ProblemList& problems) {

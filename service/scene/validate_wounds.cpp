@@ -110,7 +110,6 @@ void requireInside(const std::string& path, const Vec3& point, const Domain& dom
 }
 
 void validateWound(const std::string& path, const Wound& wound, const Domain& domain, ProblemList& problems) {
-  requireName(path + ".name", wound.name(), problems);
   const std::size_t before = problems.count();
   requirePoint(path + ".position_m", wound.position_m(), problems);
   if (problems.count() == before) requireInside(path + ".position_m", wound.position_m(), domain, problems);
@@ -133,7 +132,7 @@ void validateWounds(const Scene& scene, ProblemList& problems) {
     const Wound& wound = scene.wounds(i);
     const std::string path = fmt::format("wounds[{}]", i);
     validateWound(path, wound, scene.domain(), problems);
-    if (wound.name().empty()) continue;
+    if (!requireName(path + ".name", wound.name(), problems) || wound.name().empty()) continue;
     const auto [first, is_new] = first_of_name.emplace(wound.name(), i);
     if (!is_new) {
       problems.add(path + ".name", fmt::format("'{}' is already the name of wounds[{}]; give each wound its own or none",

@@ -173,6 +173,12 @@ TEST(ParseScene, HugeAndDeepTextsAreRefused) {
   EXPECT_FALSE(parseScene("seed: " + repeated("[", 1'000'000)).ok());
 }
 
+TEST(ParseScene, MessagesStayShortAndPrintable) {
+  const std::string message = messageOf("seed: " + std::string(100'000, 'x'));
+  EXPECT_LT(message.size(), 2000u);
+  for (const char c : messageOf("name: \xff\x01 \x80")) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~'));
+}
+
 TEST(ParseScene, ManyProblemsAreCountedBeyondTheBound) {
   const std::string message = messageOf(repeated("bad: 1\n", 1000));
   EXPECT_THAT(message, HasSubstr("the scene has 1003 problems:"));
