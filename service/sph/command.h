@@ -12,7 +12,9 @@ namespace bleedsim::sph {
 /// Names one force source; instruments and one-off forces share the space, the caller keeps the keys apart.
 using ForceKey = std::uint64_t;
 
-struct AddWound { WoundDescription wound; };
+struct AddWound {
+  WoundDescription wound;
+};
 struct UpdateWound {
   std::uint32_t wound_id = 0;
   std::optional<std::string> name;
@@ -22,18 +24,22 @@ struct UpdateWound {
   std::optional<PatchShape> shape;
   std::optional<WoundDrive> drive;
 };
-struct RemoveWound { std::uint32_t wound_id = 0; };
+struct RemoveWound {
+  std::uint32_t wound_id = 0;
+};
 
 /// `force` newtons on the fluid within `radius`, shared by kernel weight so that the sum is exactly `force`. Replaces the
 /// source of the same key.
 struct SetForce {
   ForceKey key = 0;
   Vec3 position = Vec3::Zero();
-  double radius = 0.0;                                         ///< m
-  Vec3 force = Vec3::Zero();                                   ///< N
-  double until = std::numeric_limits<double>::infinity();      ///< simulated time at which the source ends, s
+  double radius = 0.0;                                     ///< m
+  Vec3 force = Vec3::Zero();                               ///< N
+  double until = std::numeric_limits<double>::infinity();  ///< simulated time at which the source ends, s
 };
-struct RemoveForce { ForceKey key = 0; };
+struct RemoveForce {
+  ForceKey key = 0;
+};
 
 using Command = std::variant<AddWound, UpdateWound, RemoveWound, SetForce, RemoveForce>;
 

@@ -26,7 +26,7 @@ Result<SimdTarget> parseSimdTarget(std::string_view name);
 std::vector<SimdTarget> availableSimdTargets();
 
 struct WorldOptions {
-  int threads = 1;                                ///< 1..64; results are bit-equal for any value
+  int threads = 1;  ///< 1..64; results are bit-equal for any value
   SimdTarget simd = SimdTarget::automatic;
   Precision precision = Precision::float32;
 };
@@ -37,15 +37,15 @@ std::string_view stageName(Stage stage);
 
 /// Everything that is counted. Each rises only.
 enum class Counter {
-  speed_clamped,             ///< particle-steps at which |v| was cut to v_cap = 2 c0
-  acceleration_clamped,      ///< particle-steps at which |a| was cut to its bound
-  tissue_projected,          ///< particles found behind tissue and put back
-  left_domain,               ///< particles removed at the domain's sides
-  emission_refused,          ///< particles that a wound could not emit because the world is at capacity
-  inlet_withdrawn,           ///< particles of a wound's throat taken back, never emitted (wound moved or removed)
-  neighbor_overflow,         ///< particle-steps beyond the neighbour list, handled by the slow path
-  force_without_fluid,       ///< source-steps with no particle within reach
-  force_expired,             ///< force sources that ended by their time
+  speed_clamped,         ///< particle-steps at which |v| was cut to v_cap = 2 c0
+  acceleration_clamped,  ///< particle-steps at which |a| was cut to its bound
+  tissue_projected,      ///< particles found behind tissue and put back
+  left_domain,           ///< particles removed at the domain's sides
+  emission_refused,      ///< particles that a wound could not emit because the world is at capacity
+  inlet_withdrawn,       ///< particles of a wound's throat taken back, never emitted (wound moved or removed)
+  neighbor_overflow,     ///< particle-steps beyond the neighbour list, handled by the slow path
+  force_without_fluid,   ///< source-steps with no particle within reach
+  force_expired,         ///< force sources that ended by their time
   count
 };
 std::string_view counterName(Counter counter);
@@ -60,44 +60,44 @@ enum FrameAttribute : std::uint32_t {
 /// A copy of the visible particles; buffers are sized once with reserve() and reused. Order is storage order; ids are stable.
 struct FrameBuffer {
   std::uint64_t step = 0;
-  double time = 0.0;                        ///< s
+  double time = 0.0;  ///< s
   std::uint32_t count = 0;
-  std::uint32_t attributes = 0;             ///< FrameAttribute bits that are filled
-  std::vector<float> position;              ///< 3 x count, m
-  std::vector<std::uint32_t> id;            ///< count
-  std::vector<float> velocity;              ///< 3 x count, m/s
-  std::vector<float> density;               ///< count, kg/m^3
-  std::vector<float> viscosity;             ///< count, Pa s
+  std::uint32_t attributes = 0;   ///< FrameAttribute bits that are filled
+  std::vector<float> position;    ///< 3 x count, m
+  std::vector<std::uint32_t> id;  ///< count
+  std::vector<float> velocity;    ///< 3 x count, m/s
+  std::vector<float> density;     ///< count, kg/m^3
+  std::vector<float> viscosity;   ///< count, Pa s
 
   void reserve(std::uint32_t capacity, std::uint32_t attributes_wanted);
 };
 
 struct WoundState {
   std::uint32_t id = 0;
-  double emitted = 0.0;                     ///< m^3 so far
-  double flow = 0.0;                        ///< m^3/s now
+  double emitted = 0.0;  ///< m^3 so far
+  double flow = 0.0;     ///< m^3/s now
 };
 
 struct WorldStats {
   std::uint64_t step = 0;
-  double time = 0.0;                        ///< s
-  double dt = 0.0;                          ///< s, of the last step
-  std::uint32_t particles = 0;              ///< visible: injected - removed
-  std::uint64_t injected = 0;               ///< seeded or emitted
+  double time = 0.0;            ///< s
+  double dt = 0.0;              ///< s, of the last step
+  std::uint32_t particles = 0;  ///< visible: injected - removed
+  std::uint64_t injected = 0;   ///< seeded or emitted
   std::uint64_t removed = 0;
-  double emitted_volume = 0.0;              ///< m^3, by all wounds, removed ones included
-  double commanded_volume = 0.0;            ///< m^3, integral of the commanded flow
-  double mean_density_error = 0.0;          ///< mean of max(0, rho/rho0 - 1)
+  double emitted_volume = 0.0;      ///< m^3, by all wounds, removed ones included
+  double commanded_volume = 0.0;    ///< m^3, integral of the commanded flow
+  double mean_density_error = 0.0;  ///< mean of max(0, rho/rho0 - 1)
   double max_density_error = 0.0;
-  double max_speed = 0.0;                   ///< m/s
-  double kinetic_energy = 0.0;              ///< J
-  std::array<double, static_cast<int>(Stage::count)> stage_seconds{};   ///< summed since creation
+  double max_speed = 0.0;                                              ///< m/s
+  double kinetic_energy = 0.0;                                         ///< J
+  std::array<double, static_cast<int>(Stage::count)> stage_seconds{};  ///< summed since creation
   std::array<std::uint64_t, static_cast<int>(Counter::count)> counters{};
 };
 
 /// What apply() did.
 struct Applied {
-  std::uint32_t object_id = 0;              ///< of the wound added or touched, 0: none
+  std::uint32_t object_id = 0;  ///< of the wound added or touched, 0: none
 };
 
 /// Not thread-safe: one thread owns it. step() and copyFrame() neither allocate, throw, log nor call the middleware.
@@ -127,8 +127,8 @@ class World {
 
   virtual const WorldDescription& description() const = 0;
   virtual SimdTarget simdTarget() const = 0;
-  virtual double speedOfSound() const = 0;      ///< m/s
-  virtual double particleMass() const = 0;      ///< kg, calibrated on the rest lattice
+  virtual double speedOfSound() const = 0;  ///< m/s
+  virtual double particleMass() const = 0;  ///< kg, calibrated on the rest lattice
   virtual bool faulted() const = 0;
 };
 
@@ -139,9 +139,9 @@ Result<std::unique_ptr<World>> createWorld(const WorldDescription& description, 
 /// One row per effect that this build knows.
 struct EffectInfo {
   std::string_view name;
-  std::string_view equation;    ///< of the paper, or of the source
+  std::string_view equation;  ///< of the paper, or of the source
   std::string_view source;
-  std::string_view deviation;   ///< from the paper
+  std::string_view deviation;  ///< from the paper
 };
 std::span<const EffectInfo> effectCatalog();
 /// Whether the description enables the effect of that name.

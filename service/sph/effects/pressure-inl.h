@@ -1,0 +1,43 @@
+// Pressure of weakly compressible blood, in the variational form.
+//
+// Equations (16), (19), (20) of the paper (paper.md); Monaghan 1992.
+//   a_i = -m sum_j (p_i/rho_i^2 + p_j/rho_j^2) grad_i W          p = max(0, p0 + c0^2 (rho - rho0))
+// terms: p Pa; rho kg/m^3; m kg; a m/s^2. The record carries K p/rho^2 with K = 210 m/(pi h^4), so a pair is one product.
+// Deviation from the paper: (16) instead of (17), which loses energy; Wendland C2 for both density and gradient; p >= 0, because
+// a free surface would tear under negative pressure. Walls: tissue/ adds the wall's share.
+#if defined(BLEEDSIM_SPH_EFFECTS_PRESSURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BLEEDSIM_SPH_EFFECTS_PRESSURE_INL_H_
+#undef BLEEDSIM_SPH_EFFECTS_PRESSURE_INL_H_
+#else
+#define BLEEDSIM_SPH_EFFECTS_PRESSURE_INL_H_
+#endif
+
+#include "service/sph/passes/pair_geometry-inl.h"
+#include "service/sph/passes/pass_jobs.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bleedsim::sph::HWY_NAMESPACE {
+
+template <class L>
+class VariationalPressure {
+ public:
+  using Real = typename L::Scalar;
+  static constexpr int kGroups = 1;
+
+  VariationalPressure(const ForceJob<Real>&, const Real* record) : own_{L::set(record[kRecordPressure])} {}
+
+  void pair(const Pair<L>& p, PairSums<L>& sums) const {
+    const auto push = p.gradient * (p.field[kRecordPressure] + own_);
+    sums.ax = L::subMul(sums.ax, push, p.dx);
+    sums.ay = L::subMul(sums.ay, push, p.dy);
+    sums.az = L::subMul(sums.az, push, p.dz);
+  }
+
+ private:
+  typename L::V own_;
+};
+
+}  // namespace bleedsim::sph::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,164 @@
+// A uniform grid of cells of one support radius, rebuilt every step by a stable counting sort of the particles.
+//
+// The grid covers the particles only, so far empty space costs nothing. Cells are anchored at the coordinate origin (at the
+// domain's corner along a periodic axis): the order of the particles does not depend on where the bounding box happens to be.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "service/sph/aligned_array.h"
+#include "service/sph/executor.h"
+#include "service/sph/neighbors/grid_view.h"
+#include "service/sph/share_range.h"
+
+namespace bleedsim::sph {
+
+/// Bounds of positions, in support radii.
+template <class Real>
+struct Bounds {
+  std::array<Real, 3> lower{Real(1e9), Real(1e9), Real(1e9)};
+  std::array<Real, 3> upper{Real(-1e9), Real(-1e9), Real(-1e9)};
+
+  void merge(const Bounds& other) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      lower[a] = std::min(lower[a], other.lower[a]);
+      upper[a] = std::max(upper[a], other.upper[a]);
+    }
+  }
+  void include(Real x, Real y, Real z) {
+    lower = {std::min(lower[0], x), std::min(lower[1], y), std::min(lower[2], z)};
+    upper = {std::max(upper[0], x), std::max(upper[1], y), std::max(upper[2], z)};
+  }
+};
+
+template <class Real>
+class CellGrid {
+ public:
+  static constexpr std::uint32_t kRemoved = 0xffffffffu;  ///< cell of a particle that the sort drops
+
+  CellGrid() = default;
+  /// `lower`, `upper`: the domain in support radii; particles may also stand up to `margin` outside of it (wounds' throats).
+  CellGrid(std::uint32_t capacity, const std::array<double, 3>& lower, const std::array<double, 3>& upper,
+           const std::array<bool, 3>& periodic, double margin, int shares)
+      : cell_of_{capacity, 23} {
+    view_.periodic = periodic;
+    std::size_t most = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double length = upper[a] - lower[a];
+      if (periodic[a]) {
+        const int cells = std::max(3, static_cast<int>(length));
+        origin_[a] = static_cast<Real>(lower[a]);
+        scale_[a] = static_cast<Real>(cells / length);
+        view_.period[a] = static_cast<Real>(length);
+        view_.size[a] = cells + 2;
+        most *= static_cast<std::size_t>(cells) + 2;
+      } else {
+        scale_[a] = Real(1);
+        lowest_[a] = static_cast<Real>(lower[a] - margin);
+        highest_[a] = static_cast<Real>(upper[a] + margin);
+        most *= static_cast<std::size_t>(std::ceil(length + 2.0 * margin)) + 4;
+      }
+    }
+    start_ = AlignedArray<std::uint32_t>{most + 2, 29};
+    histograms_.resize(static_cast<std::size_t>(shares));
+    for (auto& histogram : histograms_) histogram = AlignedArray<std::uint32_t>{most + 2, 31};
+    view_.start = start_.data();
+  }
+
+  const GridView<Real>& view() const { return view_; }
+  std::uint32_t* cells() { return cell_of_.data(); }
+
+  /// Lays the grid over the bounds. Particles beyond the margin fall into the outermost cells: right, though slow, for the few
+  /// unseen ones of a deep throat.
+  void cover(const Bounds<Real>& bounds) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (view_.periodic[a]) continue;
+      if (bounds.lower[a] > bounds.upper[a]) {
+        origin_[a] = Real(0);
+        view_.size[a] = 3;
+        continue;
+      }
+      origin_[a] = std::floor(std::max(bounds.lower[a], lowest_[a]));
+      view_.size[a] = std::max(0, static_cast<int>(std::min(bounds.upper[a], highest_[a]) - origin_[a])) + 3;
+    }
+  }
+
+  std::uint32_t cellAt(Real x, Real y, Real z) const {
+    const int cx = coordinate(0, x);
+    const int cy = coordinate(1, y);
+    const int cz = coordinate(2, z);
+    return static_cast<std::uint32_t>((cz * view_.size[1] + cy) * view_.size[0] + cx);
+  }
+  /// 1-based cell coordinate along an axis, clamped to the grid.
+  int coordinate(std::size_t axis, Real value) const {
+    const int c = static_cast<int>(std::clamp((value - origin_[axis]) * scale_[axis], Real(0), Real(1e8))) + 1;
+    return std::clamp(c, 1, view_.size[axis] - 2);
+  }
+
+  /// Counts cells() of n particles, then calls move(from, to) for every particle that stays: `to` is its place in cell order,
+  /// equal cells in the old order. Returns how many stay. The same for any number of shares.
+  template <class Move>
+  std::uint32_t sort(std::uint32_t n, int shares, Executor& executor, Move&& move) {
+    const std::size_t cells = static_cast<std::size_t>(view_.size[0]) * static_cast<std::size_t>(view_.size[1]) *
+                              static_cast<std::size_t>(view_.size[2]);
+    executor.run(shares, [&](int share) {
+      std::uint32_t* histogram = histograms_[static_cast<std::size_t>(share)].data();
+      std::fill_n(histogram, cells, 0u);
+      const ShareRange range{n, share, shares};
+      for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        if (cell_of_[i] != kRemoved) ++histogram[cell_of_[i]];
+      }
+    });
+    std::uint32_t sum = 0;
+    for (std::size_t c = 0; c < cells; ++c) {
+      start_[c] = sum;
+      for (int share = 0; share < shares; ++share) {
+        std::uint32_t& entry = histograms_[static_cast<std::size_t>(share)][c];
+        const std::uint32_t count = entry;
+        entry = sum;
+        sum += count;
+      }
+    }
+    start_[cells] = sum;
+    executor.run(shares, [&](int share) {
+      std::uint32_t* next = histograms_[static_cast<std::size_t>(share)].data();
+      const ShareRange range{n, share, shares};
+      for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        if (cell_of_[i] != kRemoved) move(i, next[cell_of_[i]]++);
+      }
+    });
+    return sum;
+  }
+
+  /// First row of a share: rows are split where the particles are, so that shares hold about equally many.
+  int firstRow(int share, int shares, std::uint32_t n) const {
+    if (share == shares) return view_.rows();
+    const auto wanted =
+        static_cast<std::uint32_t>(std::uint64_t{n} * static_cast<std::uint64_t>(share) / static_cast<std::uint64_t>(shares));
+    int low = 0;
+    int high = view_.rows();
+    while (low < high) {
+      const int middle = (low + high) / 2;
+      if (view_.rowBegin(middle) < wanted)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  }
+
+ private:
+  GridView<Real> view_;
+  std::array<Real, 3> origin_{};
+  std::array<Real, 3> scale_{Real(1), Real(1), Real(1)};  ///< cells per support radius, <= 1
+  std::array<Real, 3> lowest_{}, highest_{};              ///< what the grid covers at most, in support radii
+  AlignedArray<std::uint32_t> start_;
+  AlignedArray<std::uint32_t> cell_of_;
+  std::vector<AlignedArray<std::uint32_t>> histograms_;
+};
+
+}  // namespace bleedsim::sph

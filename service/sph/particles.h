@@ -1,0 +1,59 @@
+// The particle state, structure of arrays. Positions are kept in support radii, so that the pair passes need no scaling.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "service/sph/aligned_array.h"
+
+namespace bleedsim::sph {
+
+template <class Real>
+struct Particles {
+  AlignedArray<Real> x, y, z;            ///< position / h, in the scene's frame
+  AlignedArray<Real> vx, vy, vz;         ///< velocity, m/s
+  AlignedArray<Real> inverse_viscosity;  ///< 1/(Pa s); empty unless viscosity differs between particles
+  AlignedArray<std::uint32_t> id;        ///< stable, never reused in a world
+  AlignedArray<std::uint32_t> driver;    ///< 0: free; otherwise the tag of the wound's throat that moves the particle
+
+  Particles() = default;
+  Particles(std::size_t capacity, bool with_viscosity, unsigned lane)
+      : x{capacity, lane},
+        y{capacity, lane + 1},
+        z{capacity, lane + 2},
+        vx{capacity, lane + 3},
+        vy{capacity, lane + 4},
+        vz{capacity, lane + 5},
+        id{capacity, lane + 6},
+        driver{capacity, lane + 7} {
+    if (with_viscosity) inverse_viscosity = AlignedArray<Real>{capacity, lane + 8};
+  }
+
+  static constexpr unsigned kArrays = 9;
+
+  void copyOne(std::size_t to, const Particles& source, std::size_t from) {
+    x[to] = source.x[from];
+    y[to] = source.y[from];
+    z[to] = source.z[from];
+    vx[to] = source.vx[from];
+    vy[to] = source.vy[from];
+    vz[to] = source.vz[from];
+    id[to] = source.id[from];
+    driver[to] = source.driver[from];
+    if (!inverse_viscosity.empty()) inverse_viscosity[to] = source.inverse_viscosity[from];
+  }
+
+  void swap(Particles& other) noexcept {
+    x.swap(other.x);
+    y.swap(other.y);
+    z.swap(other.z);
+    vx.swap(other.vx);
+    vy.swap(other.vy);
+    vz.swap(other.vz);
+    inverse_viscosity.swap(other.inverse_viscosity);
+    id.swap(other.id);
+    driver.swap(other.driver);
+  }
+};
+
+}  // namespace bleedsim::sph

@@ -1,0 +1,289 @@
+// Density (20), the equation of state (19) and the neighbour lists, cell by cell.
+//
+// The particles of the 27 cells around a cell are culled against the box of the cell's own particles into a buffer that stays in
+// the first-level cache. Two particles at a time test the buffer; hits (squared distance, record offset) are compressed into
+// lists, padded to whole vectors with a far dummy, so that the force pass needs no masks. The kernel is evaluated for the whole
+// cell afterwards.
+#if defined(BLEEDSIM_SPH_PASSES_DENSITY_PASS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BLEEDSIM_SPH_PASSES_DENSITY_PASS_INL_H_
+#undef BLEEDSIM_SPH_PASSES_DENSITY_PASS_INL_H_
+#else
+#define BLEEDSIM_SPH_PASSES_DENSITY_PASS_INL_H_
+#endif
+
+#include <algorithm>
+
+#include "service/sph/effects/pair_set.h"
+#include "service/sph/passes/pass_jobs.h"
+#include "service/sph/passes/wendland_c2-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bleedsim::sph::HWY_NAMESPACE {
+
+template <class L, bool kPeriodic, bool kTissue>
+class DensityPass {
+ public:
+  using Real = typename L::Scalar;
+  using V = typename L::V;
+
+  static void run(DensityJob<Real>& job) {
+    DensityPass pass{job};
+    for (int row = job.row_begin; row < job.row_end; ++row) {
+      if (job.grid.rowBegin(row) != job.grid.rowEnd(row)) pass.sweepRow(row);
+    }
+  }
+
+ private:
+  static constexpr int kWidth = L::kWidth;
+  static constexpr std::uint32_t kBatch = 64;  // particles whose hits are kept at once
+  static constexpr int kMaxCandidates = 2048;
+  static constexpr int kMaxBlocks = kMaxCandidates / kWidth + 4 * GridView<Real>::kMaxRuns;
+  static constexpr int kListLimit = kMaxNeighbors - 2 * kWidth;  // room for one more vector of hits and the padding
+
+  struct Hits {
+    Real* q2;
+    std::uint32_t* ids;
+    int count;
+  };
+
+  explicit DensityPass(DensityJob<Real>& job) : job_{job}, stride_{static_cast<std::uint32_t>(4 * job.groups)} {}
+
+  void sweepRow(int row) {
+    const std::uint32_t* start = job_.grid.start;
+    for (int cx = 1; cx < job_.grid.size[0] - 1; ++cx) {
+      const std::size_t cell = job_.grid.cell(row, cx);
+      const std::uint32_t begin = start[cell];
+      const std::uint32_t end = start[cell + 1];
+      if (begin == end) continue;
+      NeighborRun<Real> runs[GridView<Real>::kMaxRuns];
+      const int run_count = job_.grid.template neighborRuns<kPeriodic>(row, cx, runs);
+      if (!gatherCandidates(runs, run_count, begin, end)) {
+        for (std::uint32_t i = begin; i < end; ++i) sumDirectly(runs, run_count, i);
+        continue;
+      }
+      for (std::uint32_t i = begin; i < end; i += kBatch) sweepBatch(runs, run_count, i, std::min(kBatch, end - i));
+    }
+  }
+
+  /// Fills the candidate buffer; false when the cells hold too many.
+  bool gatherCandidates(const NeighborRun<Real>* runs, int run_count, std::uint32_t begin, std::uint32_t end) {
+    std::uint32_t total = 0;
+    for (int k = 0; k < run_count; ++k) total += runs[k].end - runs[k].begin;
+    if (total > static_cast<std::uint32_t>(kMaxCandidates - kWidth * GridView<Real>::kMaxRuns)) return false;
+
+    const Real* const position[3] = {job_.x, job_.y, job_.z};
+    V lower[3], upper[3];
+    for (int a = 0; a < 3; ++a) {
+      Real low = position[a][begin];
+      Real high = low;
+      for (std::uint32_t i = begin + 1; i < end; ++i) {
+        low = std::min(low, position[a][i]);
+        high = std::max(high, position[a][i]);
+      }
+      lower[a] = L::set(low);
+      upper[a] = L::set(high);
+    }
+
+    // Vectors of candidates first: four of each run are written without a branch, which a row seldom exceeds.
+    int blocks = 0;
+    for (int k = 0; k < run_count; ++k) {
+      const std::uint32_t length = runs[k].end - runs[k].begin;
+      const int needed = static_cast<int>((length + kWidth - 1) / kWidth);
+      for (int b = 0; b < 4; ++b) setBlock(blocks + b, runs[k], k, b);
+      for (int b = 4; b < needed; ++b) setBlock(blocks + b, runs[k], k, b);
+      blocks += needed;
+    }
+
+    int count = 0;
+    const V zero = L::set(Real(0));
+    const V one = L::set(Real(1));
+    for (int b = 0; b < blocks; ++b) {
+      const std::uint32_t j = block_begin_[b];
+      V x = L::loadUnaligned(job_.x + j);
+      V y = L::loadUnaligned(job_.y + j);
+      V z = L::loadUnaligned(job_.z + j);
+      if constexpr (kPeriodic) {
+        const NeighborRun<Real>& run = runs[block_run_[b]];
+        x = x + L::set(run.shift_x);
+        y = y + L::set(run.shift_y);
+        z = z + L::set(run.shift_z);
+      }
+      const V dx = L::max(L::max(lower[0] - x, x - upper[0]), zero);
+      const V dy = L::max(L::max(lower[1] - y, y - upper[1]), zero);
+      const V dz = L::max(L::max(lower[2] - z, z - upper[2]), zero);
+      V q2 = L::mulAdd(dx, dx, L::tail(block_end_[b] - j));
+      q2 = L::mulAdd(dz, dz, L::mulAdd(dy, dy, q2));
+      const auto near = L::below(q2, one);
+      L::compress(x, near, x_ + count);
+      L::compress(y, near, y_ + count);
+      L::compress(z, near, z_ + count);
+      L::compress(L::idRow(j * stride_, stride_), near, ids_ + count);
+      count += L::countTrue(near);
+    }
+    L::storeUnaligned(L::set(Real(1e6)), x_ + count);
+    candidates_ = count;
+    return true;
+  }
+
+  void setBlock(int at, const NeighborRun<Real>& run, int run_index, int b) {
+    block_begin_[at] = run.begin + static_cast<std::uint32_t>(b * kWidth);
+    block_end_[at] = run.end;
+    if constexpr (kPeriodic) block_run_[at] = static_cast<std::uint8_t>(run_index);
+  }
+
+  static void take(Hits& hits, V q2, typename L::Ids ids) {
+    const auto inside = L::below(q2, L::set(Real(1)));
+    L::compress(q2, inside, hits.q2 + hits.count);
+    L::compress(ids, inside, hits.ids + hits.count);
+    hits.count += L::countTrue(inside);
+  }
+
+  void sweepBatch(const NeighborRun<Real>* runs, int run_count, std::uint32_t first, std::uint32_t size) {
+    std::uint64_t overflowed = 0;  // bit per particle
+    for (std::uint32_t k = 0; k < size; k += 2) {
+      const bool two = k + 1 < size;
+      if (job_.lists->used + 2 * kMaxNeighbors > job_.lists->capacity) {
+        overflowed |= (two ? std::uint64_t{3} : std::uint64_t{1}) << k;
+        lengths_[k] = 0;
+        if (two) lengths_[k + 1] = 0;
+        continue;
+      }
+      std::uint32_t* const entries = job_.lists->entries + job_.lists->used;
+      Hits a{q2_ + kMaxNeighbors * k, entries, 0};
+      Hits b{q2_ + kMaxNeighbors * (two ? k + 1 : k), second_ids_, 0};
+      const bool fits = two ? searchTwo(first + k, a, b) : searchOne(first + k, a);
+      if (!fits && two) {  // one of them overflows: each on its own
+        a.count = b.count = 0;
+        if (!searchOne(first + k, a)) overflowed |= std::uint64_t{1} << k;
+        if (!searchOne(first + k + 1, b)) overflowed |= std::uint64_t{2} << k;
+      } else if (!fits) {
+        overflowed |= std::uint64_t{1} << k;
+      }
+      lengths_[k] = (overflowed >> k & 1) ? 0 : closeList(first + k, a);
+      if (!two) continue;
+      if (overflowed >> (k + 1) & 1) {
+        lengths_[k + 1] = 0;
+        continue;
+      }
+      std::uint32_t* const target = job_.lists->entries + job_.lists->used;
+      lengths_[k + 1] = closeList(first + k + 1, b);
+      for (int v = 0; v < lengths_[k + 1]; ++v) L::storeIds(L::loadIds(second_ids_ + v * kWidth), target + v * kWidth);
+    }
+    evaluate(first, size);
+    if (overflowed == 0) return;
+    for (std::uint32_t k = 0; k < size; ++k) {
+      if (overflowed >> k & 1) sumDirectly(runs, run_count, first + k);
+    }
+  }
+
+  bool searchOne(std::uint32_t i, Hits& hits) const {
+    const V x = L::set(job_.x[i]);
+    const V y = L::set(job_.y[i]);
+    const V z = L::set(job_.z[i]);
+    for (int c = 0; c < candidates_; c += kWidth) {
+      take(hits, distance2(L::load(x_ + c) - x, L::load(y_ + c) - y, L::load(z_ + c) - z), L::loadIds(ids_ + c));
+      if (hits.count > kListLimit) return false;
+    }
+    return true;
+  }
+  bool searchTwo(std::uint32_t i, Hits& a, Hits& b) const {
+    const V x0 = L::set(job_.x[i]);
+    const V y0 = L::set(job_.y[i]);
+    const V z0 = L::set(job_.z[i]);
+    const V x1 = L::set(job_.x[i + 1]);
+    const V y1 = L::set(job_.y[i + 1]);
+    const V z1 = L::set(job_.z[i + 1]);
+    for (int c = 0; c < candidates_; c += kWidth) {
+      const V x = L::load(x_ + c);
+      const V y = L::load(y_ + c);
+      const V z = L::load(z_ + c);
+      const auto ids = L::loadIds(ids_ + c);
+      take(a, distance2(x - x0, y - y0, z - z0), ids);
+      take(b, distance2(x - x1, y - y1, z - z1), ids);
+      if (std::max(a.count, b.count) > kListLimit) return false;
+    }
+    return true;
+  }
+  static V distance2(V dx, V dy, V dz) { return L::mulAdd(dz, dz, L::mulAdd(dy, dy, dx * dx)); }
+
+  /// Pads the list to whole vectors and records where it is; returns its length in vectors.
+  int closeList(std::uint32_t i, Hits& hits) {
+    L::storeUnaligned(L::set(Real(1)), hits.q2 + hits.count);
+    L::storeIds(L::setIds(job_.count * stride_), hits.ids + hits.count);
+    const int length = (hits.count + kWidth - 1) / kWidth;
+    job_.blocks[i] = static_cast<std::uint8_t>(length);
+    job_.list_at[i] = static_cast<std::uint32_t>(job_.lists->used / kWidth);
+    job_.lists->used += static_cast<std::size_t>(length * kWidth);
+    return length;
+  }
+
+  void evaluate(std::uint32_t first, std::uint32_t size) {
+    const V one = L::set(Real(1));
+    for (std::uint32_t k = 0; k < size; ++k) {
+      V sum = L::set(Real(0));
+      const Real* q2 = q2_ + kMaxNeighbors * k;
+      for (int v = 0; v < lengths_[k]; ++v) {
+        sum = sum + WendlandC2<L>::weight(L::max(one - L::sqrt(L::load(q2 + v * kWidth)), L::set(Real(0))));
+      }
+      L::store(sum, sums_ + k * kWidth);
+    }
+    for (std::uint32_t k = 0; k < size; k += kWidth) {
+      V rows[kWidth];
+      for (int r = 0; r < kWidth; ++r) rows[r] = L::load(sums_ + (k + static_cast<std::uint32_t>(r)) * kWidth);
+      alignas(64) Real sums[kWidth];
+      L::store(L::sums(rows), sums);
+      const std::uint32_t last = std::min<std::uint32_t>(kWidth, size - k);
+      for (std::uint32_t r = 0; r < last; ++r) finish(first + k + r, sums[r]);
+    }
+  }
+
+  void finish(std::uint32_t i, Real weight) const {
+    Real density = job_.mass_weight * weight;
+    if constexpr (kTissue) density += job_.rest_density * job_.share[i];
+    const Real inverse = Real(1) / density;
+    const Real pressure = std::max(Real(0), job_.background + job_.stiffness * (density - job_.rest_density));
+    Real* record = job_.record + static_cast<std::size_t>(i) * stride_;
+    record[kRecordPressure] = job_.pressure_scale * pressure * inverse * inverse;
+    if (job_.groups > 1) record[kRecordInverseDensity] = inverse;
+    job_.density[i] = density;
+  }
+
+  /// The slow path of a particle with more neighbours than a list holds: nothing is left out, only time is lost.
+  void sumDirectly(const NeighborRun<Real>* runs, int run_count, std::uint32_t i) {
+    Real sum = 0;
+    for (int k = 0; k < run_count; ++k) {
+      for (std::uint32_t j = runs[k].begin; j < runs[k].end; ++j) {
+        const Real dx = job_.x[j] + runs[k].shift_x - job_.x[i];
+        const Real dy = job_.y[j] + runs[k].shift_y - job_.y[i];
+        const Real dz = job_.z[j] + runs[k].shift_z - job_.z[i];
+        const Real q2 = dx * dx + dy * dy + dz * dz;
+        if (q2 >= Real(1)) continue;
+        const Real t = Real(1) - std::sqrt(q2);
+        sum += t * t * t * t * (Real(5) - Real(4) * t);
+      }
+    }
+    job_.blocks[i] = kOverflowList;
+    ++job_.overflowed;
+    finish(i, sum);
+  }
+
+  DensityJob<Real>& job_;
+  const std::uint32_t stride_;
+  int candidates_ = 0;
+  int lengths_[kBatch + 8] = {};
+  std::uint32_t block_begin_[kMaxBlocks];
+  std::uint32_t block_end_[kMaxBlocks];
+  std::uint8_t block_run_[kMaxBlocks];
+  alignas(64) Real x_[kMaxCandidates + 8];
+  alignas(64) Real y_[kMaxCandidates + 8];
+  alignas(64) Real z_[kMaxCandidates + 8];
+  alignas(64) std::uint32_t ids_[kMaxCandidates + 8];
+  alignas(64) std::uint32_t second_ids_[kMaxNeighbors];
+  alignas(64) Real q2_[kBatch * kMaxNeighbors];
+  alignas(64) Real sums_[(kBatch + 8) * kWidth] = {};
+};
+
+}  // namespace bleedsim::sph::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,32 @@
+// One particle against a vector of neighbours, as every pair effect sees it.
+#if defined(BLEEDSIM_SPH_PASSES_PAIR_GEOMETRY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BLEEDSIM_SPH_PASSES_PAIR_GEOMETRY_INL_H_
+#undef BLEEDSIM_SPH_PASSES_PAIR_GEOMETRY_INL_H_
+#else
+#define BLEEDSIM_SPH_PASSES_PAIR_GEOMETRY_INL_H_
+#endif
+
+#include "service/sph/effects/pair_set.h"
+#include "service/sph/passes/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bleedsim::sph::HWY_NAMESPACE {
+
+template <class L>
+struct Pair {
+  typename L::V dx, dy, dz;                   ///< (x_j - x_i) / h
+  typename L::V q2;                           ///< (r/h)^2
+  typename L::V gradient;                     ///< of the kernel, WendlandC2::gradient; 0 beyond the support
+  typename L::V field[4 * kMaxRecordGroups];  ///< the neighbours' record fields
+};
+
+/// What the effects add to: the acceleration of particle i, m/s^2.
+template <class L>
+struct PairSums {
+  typename L::V ax, ay, az;
+};
+
+}  // namespace bleedsim::sph::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,66 @@
+// What the density and force passes are given: plain views of the world's arrays, the same for every SIMD target.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "service/sph/neighbors/grid_view.h"
+
+namespace bleedsim::sph {
+
+constexpr int kMaxNeighbors = 192;           ///< a list's length; more go the slow path
+constexpr std::uint8_t kOverflowList = 255;  ///< in NeighborLists::blocks: this particle takes the slow path
+
+/// The padded neighbour lists of one share. An entry is the neighbour's record offset in scalars.
+struct NeighborLists {
+  std::uint32_t* entries = nullptr;
+  std::size_t capacity = 0;
+  std::size_t used = 0;
+};
+
+template <class Real>
+struct DensityJob {
+  GridView<Real> grid;
+  int row_begin = 0, row_end = 0;
+  const Real* x = nullptr;  ///< position / h
+  const Real* y = nullptr;
+  const Real* z = nullptr;
+  const Real* share = nullptr;  ///< the tissue's share of density, 1; null without tissue
+  std::uint32_t count = 0;      ///< particles; record `count` is the far dummy
+  int groups = 1;               ///< record groups
+  Real mass_weight = 0;         ///< m / h^3 * the kernel's norm: density = mass_weight * sum of the kernel's polynomial
+  Real rest_density = 0;        ///< kg/m^3
+  Real stiffness = 0;           ///< c0^2, m^2/s^2; 0 without pressure
+  Real background = 0;          ///< Pa
+  Real pressure_scale = 0;      ///< makes the record's pressure term, kRecordPressure
+
+  NeighborLists* lists = nullptr;
+  std::uint32_t* list_at = nullptr;  ///< per particle, in the share's entries
+  std::uint8_t* blocks = nullptr;    ///< per particle, list length in vectors, or kOverflowList
+  Real* record = nullptr;
+  Real* density = nullptr;       ///< kg/m^3
+  std::uint64_t overflowed = 0;  ///< particles on the slow path
+};
+
+template <class Real>
+struct ForceJob {
+  GridView<Real> grid;
+  int row_begin = 0, row_end = 0;
+  std::uint32_t count = 0;
+  const Real* x = nullptr;
+  const Real* y = nullptr;
+  const Real* z = nullptr;
+  const Real* record = nullptr;
+  const std::uint32_t* entries = nullptr;
+  const std::uint32_t* list_at = nullptr;
+  const std::uint8_t* blocks = nullptr;
+  Real viscosity_scale = 0;      ///< uniform: K mu; harmonic: 2 K; K = calibrated kernel prefactor
+  Real* acceleration = nullptr;  ///< 4 per particle: x, y, z, unused; m/s^2
+};
+
+template <class Real>
+using DensityFunction = void (*)(DensityJob<Real>&);
+template <class Real>
+using ForceFunction = void (*)(const ForceJob<Real>&);
+
+}  // namespace bleedsim::sph

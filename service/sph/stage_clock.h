@@ -1,0 +1,28 @@
+// Wall time spent in each stage of World::step.
+#pragma once
+
+#include <array>
+#include <chrono>
+
+#include "service/sph/world.h"
+
+namespace bleedsim::sph {
+
+class StageClock {
+ public:
+  void start() { last_ = Clock::now(); }
+  /// What passed since start() or the last lap belongs to `stage`.
+  void lap(Stage stage) {
+    const Clock::time_point now = Clock::now();
+    seconds_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+  const std::array<double, static_cast<int>(Stage::count)>& seconds() const { return seconds_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_{};
+  std::array<double, static_cast<int>(Stage::count)> seconds_{};
+};
+
+}  // namespace bleedsim::sph

@@ -1,0 +1,156 @@
+// Tissue in a step: samples the walls near particles once, then adds pressure, contact spring and friction (walls.md, model "E").
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "service/sph/aligned_array.h"
+#include "service/sph/executor.h"
+#include "service/sph/neighbors/cell_grid.h"
+#include "service/sph/particles.h"
+#include "service/sph/passes/pair_passes.h"
+#include "service/sph/tissue/tissue_field.h"
+#include "service/sph/wound/wound_set.h"
+
+namespace bleedsim::sph {
+
+template <class Real>
+struct WallConstants {
+  Real h = 0;                 ///< m
+  Real rest_density = 0;      ///< kg/m^3
+  Real speed_of_sound2 = 0;   ///< c0^2
+  Real viscosity_factor = 0;  ///< rest-lattice factor; 0 without viscosity
+  Real viscosity = 0;         ///< Pa s, where particles carry none
+  bool pressure = false;
+};
+
+template <class Real>
+class WallEffects {
+ public:
+  WallEffects(TissueField<Real> field, const WallConstants<Real>& constants, std::uint32_t capacity, int shares)
+      : field_{std::move(field)}, constants_{constants} {
+    if (field_.empty()) return;
+    share_ = AlignedArray<Real>{capacity, 17};
+    for (int share = 0; share < shares; ++share) touching_.emplace_back(capacity, 19u, Uninitialized{});
+    counts_.resize(static_cast<std::size_t>(shares), Count{});
+  }
+
+  bool empty() const { return field_.empty(); }
+  const TissueField<Real>& field() const { return field_; }
+  /// The tissue's share of density per particle; null without tissue.
+  const Real* share() const { return share_.empty() ? nullptr : share_.data(); }
+
+  /// Particles of a throat see no tissue: they stand for it.
+  void sample(const CellGrid<Real>& grid, const Particles<Real>& p, const WoundSet& wounds, std::uint32_t count, int shares,
+              Executor& executor) {
+    if (field_.empty()) return;
+    executor.run(shares, [&](int share) {
+      Touching* list = touching_[static_cast<std::size_t>(share)].data();
+      std::uint32_t length = 0;
+      const std::uint32_t end = shareEnd(grid, share + 1, shares, count);
+      for (std::uint32_t i = shareEnd(grid, share, shares, count); i < end; ++i) {
+        share_[i] = Real(0);
+        if (p.driver[i] != 0) continue;
+        Touching& entry = list[length];
+        const Real x = p.x[i] * constants_.h;
+        const Real y = p.y[i] * constants_.h;
+        const Real z = p.z[i] * constants_.h;
+        if (!field_.sample(x, y, z, entry.wall)) continue;
+        if (!wounds.empty()) closeBy(Real(1) - static_cast<Real>(wounds.openFraction({x, y, z})), entry.wall);
+        entry.particle = i;
+        share_[i] = entry.wall.share;
+        ++length;
+      }
+      counts_[static_cast<std::size_t>(share)].touching = length;
+    });
+  }
+
+  /// Adds to the accelerations. Velocities are those of the half step.
+  void addForces(const Particles<Real>& p, PairPasses<Real>& passes, int shares, Executor& executor) const {
+    if (field_.empty()) return;
+    executor.run(shares, [&](int share) {
+      const Touching* list = touching_[static_cast<std::size_t>(share)].data();
+      for (std::uint32_t k = 0; k < counts_[static_cast<std::size_t>(share)].touching; ++k) addForce(list[k], p, passes);
+    });
+  }
+
+  /// The safety net: particles found behind tissue are put back in front of it, their velocity into it is taken. Returns how
+  /// many.
+  std::uint64_t project(Particles<Real>& p, int shares, Executor& executor) {
+    if (field_.empty()) return 0;
+    executor.run(shares, [&](int share) {
+      Count& count = counts_[static_cast<std::size_t>(share)];
+      count.projected = 0;
+      for (std::uint32_t k = 0; k < count.touching; ++k) {
+        const Touching& entry = touching_[static_cast<std::size_t>(share)][k];
+        if (entry.wall.distance < Real(0) && projectOne(entry.particle, p)) ++count.projected;
+      }
+    });
+    std::uint64_t projected = 0;
+    for (int share = 0; share < shares; ++share) projected += counts_[static_cast<std::size_t>(share)].projected;
+    return projected;
+  }
+
+ private:
+  struct Touching {
+    std::uint32_t particle;
+    WallSample<Real> wall;
+  };
+  struct alignas(64) Count {
+    std::uint32_t touching = 0;
+    std::uint64_t projected = 0;
+  };
+
+  static std::uint32_t shareEnd(const CellGrid<Real>& grid, int share, int shares, std::uint32_t count) {
+    return grid.view().rowBegin(grid.firstRow(share, shares, count));
+  }
+
+  static void closeBy(Real closed, WallSample<Real>& wall) {
+    if (closed == Real(1)) return;
+    wall.share *= closed;
+    wall.friction *= closed;
+    for (std::size_t a = 0; a < 3; ++a) {
+      wall.gradient[a] *= closed;
+      wall.spring[a] *= closed;
+    }
+  }
+
+  void addForce(const Touching& entry, const Particles<Real>& p, PairPasses<Real>& passes) const {
+    const std::uint32_t i = entry.particle;
+    const Real density = passes.density()[i];
+    const Real pressure = constants_.pressure ? passes.pressureAt(density) : Real(0);
+    const Real push = -constants_.rest_density * pressure / (density * density);
+    Real drag = Real(0);
+    if (constants_.viscosity_factor > Real(0)) {
+      const Real viscosity = p.inverse_viscosity.empty() ? constants_.viscosity : Real(1) / p.inverse_viscosity[i];
+      drag = constants_.viscosity_factor * viscosity / density * entry.wall.friction;
+    }
+    Real* a = passes.acceleration() + std::size_t{i} * 4;
+    const Real v[3] = {p.vx[i], p.vy[i], p.vz[i]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[k] += push * entry.wall.gradient[k] + constants_.speed_of_sound2 * entry.wall.spring[k] + drag * v[k];
+    }
+  }
+
+  bool projectOne(std::uint32_t i, Particles<Real>& p) const {
+    std::array<Real, 3> position{p.x[i] * constants_.h, p.y[i] * constants_.h, p.z[i] * constants_.h};
+    std::array<Real, 3> normal{};
+    if (!field_.project(position, normal)) return false;
+    p.x[i] = position[0] / constants_.h;
+    p.y[i] = position[1] / constants_.h;
+    p.z[i] = position[2] / constants_.h;
+    const Real into = std::min(Real(0), p.vx[i] * normal[0] + p.vy[i] * normal[1] + p.vz[i] * normal[2]);
+    p.vx[i] -= into * normal[0];
+    p.vy[i] -= into * normal[1];
+    p.vz[i] -= into * normal[2];
+    return true;
+  }
+
+  TissueField<Real> field_;
+  WallConstants<Real> constants_;
+  AlignedArray<Real> share_;
+  std::vector<AlignedArray<Touching>> touching_;
+  std::vector<Count> counts_;
+};
+
+}  // namespace bleedsim::sph

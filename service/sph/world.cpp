@@ -1,0 +1,146 @@
+#include "service/sph/world.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "service/sph/effects/effect_list.h"
+#include "service/sph/seeding.h"
+#include "service/sph/world_core.h"
+#include "service/sph/world_setup.h"
+
+namespace bleedsim::sph {
+namespace {
+
+constexpr std::uint32_t kMostParticles = 2'000'000;
+constexpr int kMostThreads = 64;
+constexpr double kMostCells = 16'777'216.0;
+
+constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::count)> kStageNames{
+    "emit", "move", "neighbors", "tissue", "density", "force", "body", "integrate"};
+constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)> kCounterNames{
+    "speed_clamped",   "acceleration_clamped", "tissue_projected",    "left_domain",  "emission_refused",
+    "inlet_withdrawn", "neighbor_overflow",    "force_without_fluid", "force_expired"};
+
+Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
+
+/// What the arrays and the grid need; the scene layer gives the finer messages.
+Status checkDescription(const WorldDescription& d, const WorldOptions& options) {
+  if (options.threads < 1 || options.threads > kMostThreads) {
+    return invalid("threads is " + std::to_string(options.threads) + "; use 1 to " + std::to_string(kMostThreads));
+  }
+  if (d.capacity < 1 || d.capacity > kMostParticles) {
+    return invalid("capacity is " + std::to_string(d.capacity) + " particles; use 1 to " + std::to_string(kMostParticles));
+  }
+  if (!(d.spacing > 0.0) || !std::isfinite(d.spacing)) return invalid("the particle spacing must be greater than 0 m");
+  if (!(d.support_ratio >= 1.5) || !(d.support_ratio <= 3.5)) return invalid("the support ratio h/dx must be 1.5 to 3.5");
+  if (!(d.rest_density > 0.0) || !std::isfinite(d.rest_density)) return invalid("the rest density must be greater than 0 kg/m^3");
+  if (!(d.max_dt > 0.0)) return invalid("the largest time step must be greater than 0 s");
+  const double h = d.supportRadius();
+  const double c0 = speedOfSound(d);
+  if (!(c0 > 0.0) || !std::isfinite(c0)) return invalid("the speed of sound must be greater than 0 m/s: set a design speed");
+  double cells = 1.0;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const double length = d.domain.upper[a] - d.domain.lower[a];
+    if (!(length > 0.0) || !std::isfinite(length)) return invalid("the domain's upper corner must lie above its lower corner");
+    if (d.domain.periodic[static_cast<std::size_t>(a)] && length < 3.0 * h) {
+      return invalid("a periodic side must measure at least three support radii, " + std::to_string(3.0 * h) + " m");
+    }
+    cells *= length / h + 2.0 * kThroatMargin;
+  }
+  if (cells > kMostCells) {
+    return invalid("the domain holds " + std::to_string(cells) +
+                   " cells of one support radius, at most 16777216 are possible; use a "
+                   "smaller domain or a larger spacing");
+  }
+  if (d.effects.viscosity && !(d.effects.viscosity->viscosity >= 0.0)) return invalid("viscosity must not be negative");
+  std::uint64_t seeded = 0;
+  for (const FluidBlock& block : d.fluid_blocks) {
+    if (block.viscosity && !(*block.viscosity >= 0.0)) return invalid("a fluid block's viscosity must not be negative");
+    const auto counts = blockLattice(block, d.spacing);
+    std::uint64_t particles = 1;  // bounded after every factor: the product of three could overflow
+    for (const std::uint64_t count : counts)
+      particles = std::min<std::uint64_t>(particles * count, std::uint64_t{kMostParticles} + 1);
+    seeded = std::min<std::uint64_t>(seeded + particles, std::uint64_t{kMostParticles} + 1);
+  }
+  if (seeded > d.capacity) {
+    return {StatusCode::capacity, "the fluid blocks hold " + std::to_string(seeded) + " particles, the capacity is " +
+                                      std::to_string(d.capacity) + "; raise domain.capacity or the spacing"};
+  }
+  return {};
+}
+
+template <class Real>
+Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptions& options, SimdTarget target,
+                                     const PassTable<Real>& table) {
+  const SmoothingKernel kernel{KernelType::wendland_c2, d.supportRadius()};
+  const RestLattice lattice = calibrateRestLattice(kernel, d.spacing, d.rest_density);
+  Result<TissueField<Real>> tissue = TissueField<Real>::create(
+      d.tissue, {.kernel = kernel, .spacing = d.spacing, .particle_mass = lattice.particle_mass, .rest_density = d.rest_density});
+  if (!tissue) return tissue.status();
+  auto world = std::make_unique<WorldCore<Real>>(d, options, target, table, lattice, std::move(*tissue));
+  if (Status status = world->populate(); !status.ok()) return status;
+  return std::unique_ptr<World>{std::move(world)};
+}
+
+}  // namespace
+
+double speedOfSound(const WorldDescription& d) {
+  const double g = d.effects.gravity ? d.effects.gravity->acceleration.norm() : 0.0;
+  double speed =
+      std::max(d.compressibility.design_speed, std::sqrt(2.0 * g * std::max(0.0, d.compressibility.max_fall_or_depth)));
+  for (const WoundDescription& wound : d.wounds) {
+    if (const auto* drive = std::get_if<PressureDriveSettings>(&wound.drive)) {
+      speed = std::max(speed, std::sqrt(2.0 * std::max(0.0, drive->inlet_pressure) / d.rest_density));
+    }
+  }
+  return d.compressibility.mach_factor * speed;
+}
+
+Result<std::unique_ptr<World>> createWorld(const WorldDescription& description, const WorldOptions& options) {
+  if (Status status = checkDescription(description, options); !status.ok()) return status;
+  if (options.precision == Precision::float64) {
+    if (options.simd != SimdTarget::automatic && options.simd != SimdTarget::scalar) {
+      return invalid("double precision is the reference and runs on the scalar target only; use scalar or auto");
+    }
+    return build<double>(description, options, SimdTarget::scalar, referencePasses());
+  }
+  const SimdTarget target = options.simd == SimdTarget::automatic ? availableSimdTargets().front() : options.simd;
+  const PassTable<float>* table = findPasses(target);
+  if (table == nullptr) {
+    std::string names;
+    for (const SimdTarget available : availableSimdTargets())
+      names += (names.empty() ? "" : ", ") + std::string{simdTargetName(available)};
+    return Status{StatusCode::unsupported, "this machine or build lacks the SIMD target '" + std::string{simdTargetName(target)} +
+                                               "'; available: " + names};
+  }
+  return build<float>(description, options, target, *table);
+}
+
+void FrameBuffer::reserve(std::uint32_t capacity, std::uint32_t attributes_wanted) {
+  const std::size_t n = capacity;
+  position.resize(3 * n);
+  id.resize(n);
+  velocity.resize(attributes_wanted & kFrameVelocity ? 3 * n : 0);
+  density.resize(attributes_wanted & kFrameDensity ? n : 0);
+  viscosity.resize(attributes_wanted & kFrameViscosity ? n : 0);
+}
+
+std::string_view stageName(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }
+std::string_view counterName(Counter counter) { return kCounterNames[static_cast<std::size_t>(counter)]; }
+
+std::span<const EffectInfo> effectCatalog() {
+  static constexpr auto kCatalog = [] {
+    std::array<EffectInfo, kEffects.size()> catalog{};
+    for (std::size_t i = 0; i < kEffects.size(); ++i) catalog[i] = kEffects[i].info;
+    return catalog;
+  }();
+  return kCatalog;
+}
+
+bool effectEnabled(const WorldDescription& description, std::string_view name) {
+  const auto row = std::find_if(kEffects.begin(), kEffects.end(), [name](const EffectRow& e) { return e.info.name == name; });
+  return row != kEffects.end() && row->enabled(description.effects);
+}
+
+}  // namespace bleedsim::sph

@@ -1,0 +1,328 @@
+#include "service/sph/world_core.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "service/sph/flush_to_zero.h"
+#include "service/sph/view.h"
+#include "service/sph/world_setup.h"
+
+namespace bleedsim::sph {
+namespace {
+
+// Below this a second thread costs more than it brings.
+constexpr std::uint32_t kParticlesForThreads = 2000;
+
+template <class Real>
+std::array<Real, 3> inSupportRadii(const Vec3& v, double h) {
+  return {static_cast<Real>(v.x() / h), static_cast<Real>(v.y() / h), static_cast<Real>(v.z() / h)};
+}
+
+std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+bool anyPeriodic(const Domain& domain) { return domain.periodic[0] || domain.periodic[1] || domain.periodic[2]; }
+
+}  // namespace
+
+template <class Real>
+WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptions& options, SimdTarget target,
+                           const PassTable<Real>& table, const RestLattice& lattice, TissueField<Real> tissue)
+    : description_{description},
+      target_{target},
+      speed_of_sound_{sph::speedOfSound(description)},
+      lattice_{lattice},
+      h_{description.supportRadius()},
+      domain_{inSupportRadii<Real>(description.domain.lower, h_), inSupportRadii<Real>(description.domain.upper, h_),
+              description.domain.periodic},
+      caps_{static_cast<Real>(2.0 * speed_of_sound_),
+            static_cast<Real>(6.25 * speed_of_sound_ * speed_of_sound_ / description.spacing)},
+      limits_{timeStepLimits(description, speed_of_sound_)},
+      executor_{makeExecutor(options.threads)},
+      particles_{description.capacity, pairSet(description).viscosity == ViscosityTerm::harmonic, 0},
+      sorted_{description.capacity, pairSet(description).viscosity == ViscosityTerm::harmonic, Particles<Real>::kArrays},
+      grid_{description.capacity,        asArray(description.domain.lower / h_),    asArray(description.domain.upper / h_),
+            description.domain.periodic, kThroatMargin / description.support_ratio, options.threads},
+      passes_{table,
+              pairSet(description),
+              anyPeriodic(description.domain),
+              !tissue.empty(),
+              pairConstants<Real>(description, lattice, speed_of_sound_),
+              description.capacity,
+              description.support_ratio,
+              options.threads},
+      walls_{std::move(tissue), wallConstants<Real>(description, lattice, speed_of_sound_), description.capacity,
+             options.threads},
+      wounds_{description, speed_of_sound_},
+      drift_results_(static_cast<std::size_t>(options.threads)),
+      kick_results_(static_cast<std::size_t>(options.threads)) {
+  if (description.effects.gravity) {
+    const Vec3& g = description.effects.gravity->acceleration;
+    gravity_ = {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(g.z())};
+  }
+  if (description.effects.applied_force) {
+    applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_,
+                           (description.domain.upper - description.domain.lower).norm());
+  }
+}
+
+template <class Real>
+Status WorldCore<Real>::populate() {
+  JitterSource jitter{description_.seed};
+  for (const FluidBlock& block : description_.fluid_blocks) {
+    const double viscosity =
+        block.viscosity.value_or(description_.effects.viscosity ? description_.effects.viscosity->viscosity : 0.0);
+    seedBlock(block, description_.spacing, jitter, [&](const Vec3& position) {
+      const std::uint32_t i = count_++;
+      particles_.x[i] = static_cast<Real>(position.x() / h_);
+      particles_.y[i] = static_cast<Real>(position.y() / h_);
+      particles_.z[i] = static_cast<Real>(position.z() / h_);
+      particles_.vx[i] = static_cast<Real>(block.velocity.x());
+      particles_.vy[i] = static_cast<Real>(block.velocity.y());
+      particles_.vz[i] = static_cast<Real>(block.velocity.z());
+      particles_.id[i] = next_id_++;
+      if (!particles_.inverse_viscosity.empty()) particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity);
+    });
+  }
+  injected_ = count_;
+  for (const WoundDescription& wound : description_.wounds) {
+    const Result<std::uint32_t> added = wounds_.add(wound);
+    if (!added) return {added.status().code(), "wound '" + wound.name + "': " + added.status().message()};
+  }
+  const FlushToZero scope;
+  emit(0.0);
+  chooseShares();
+  for (std::uint32_t i = 0; i < count_; ++i) grid_.cells()[i] = 0;
+  findNeighbors(boundsOf());
+  computeAccelerations();
+  finishStep(0.0);
+  if (faulted_) return {StatusCode::internal, "the scene's first accelerations are not finite"};
+  next_dt_ = stableTimeStep(limits_, max_speed_, std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2)),
+                            std::numeric_limits<double>::infinity());
+  return {};
+}
+
+template <class Real>
+Status WorldCore<Real>::step(double dt_limit) {
+  if (!(dt_limit > 0.0)) return {StatusCode::invalid_argument, "the step's limit must be a time greater than 0 s"};
+  if (faulted_) return {StatusCode::internal, "the world is faulted: its state stopped being finite; reset it"};
+  const FlushToZero scope;
+  const double stable = next_dt_;
+  const double dt = std::min(stable, dt_limit);
+  clock_.start();
+  emit(dt);
+  clock_.lap(Stage::emit);
+  chooseShares();
+  move(dt);
+  computeAccelerations();
+  finishStep(dt);
+  if (faulted_) return {StatusCode::internal, "the state is not finite; the world is faulted and stays as it is"};
+  next_dt_ = stableTimeStep(limits_, max_speed_, std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2)), stable);
+  last_dt_ = dt;
+  time_ += dt;
+  ++steps_;
+  clock_.lap(Stage::integrate);
+  return {};
+}
+
+template <class Real>
+void WorldCore<Real>::chooseShares() {
+  shares_ = count_ < kParticlesForThreads ? 1 : executor_->threads();
+}
+
+template <class Real>
+void WorldCore<Real>::emit(double dt) {
+  const InletStep step = wounds_.advance(dt, [&](const InletSpawn& spawn) {
+    if (count_ >= description_.capacity) return false;
+    const std::uint32_t i = count_++;
+    ++unseen_;
+    particles_.x[i] = static_cast<Real>(spawn.state.position.x() / h_);
+    particles_.y[i] = static_cast<Real>(spawn.state.position.y() / h_);
+    particles_.z[i] = static_cast<Real>(spawn.state.position.z() / h_);
+    particles_.vx[i] = static_cast<Real>(spawn.state.velocity.x());
+    particles_.vy[i] = static_cast<Real>(spawn.state.velocity.y());
+    particles_.vz[i] = static_cast<Real>(spawn.state.velocity.z());
+    particles_.id[i] = next_id_++;
+    particles_.driver[i] = spawn.tag;
+    if (!particles_.inverse_viscosity.empty()) {
+      particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / description_.effects.viscosity->viscosity);
+    }
+    std::fill_n(passes_.acceleration() + std::size_t{i} * 4, 4, Real(0));
+    return true;
+  });
+  unseen_ -= static_cast<std::uint32_t>(step.emitted);
+  injected_ += step.emitted;
+}
+
+template <class Real>
+void WorldCore<Real>::move(double dt) {
+  executor_->run(shares_, [&](int share) {
+    drift_results_[static_cast<std::size_t>(share)] =
+        kickAndDrift(particles_, passes_.acceleration(), static_cast<Real>(0.5 * dt), static_cast<Real>(dt / h_), h_, domain_,
+                     wounds_, ShareRange{count_, share, shares_}, grid_.cells());
+  });
+  Bounds<Real> bounds;
+  for (int share = 0; share < shares_; ++share) {
+    const DriftResult<Real>& result = drift_results_[static_cast<std::size_t>(share)];
+    bounds.merge(result.bounds);
+    counter(Counter::left_domain) += result.left_domain;
+    removed_ += result.left_domain;
+  }
+  clock_.lap(Stage::move);
+  findNeighbors(bounds);
+}
+
+template <class Real>
+void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds) {
+  grid_.cover(bounds);
+  executor_->run(shares_, [&](int share) {
+    const ShareRange range{count_, share, shares_};
+    std::uint32_t* cells = grid_.cells();
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      if (cells[i] != CellGrid<Real>::kRemoved) cells[i] = grid_.cellAt(particles_.x[i], particles_.y[i], particles_.z[i]);
+    }
+  });
+  count_ = grid_.sort(count_, shares_, *executor_, [&](std::uint32_t from, std::uint32_t to) {
+    sorted_.copyOne(to, particles_, from);
+    passes_.pack(to, sorted_);
+  });
+  particles_.swap(sorted_);
+  clock_.lap(Stage::neighbors);
+}
+
+template <class Real>
+void WorldCore<Real>::computeAccelerations() {
+  walls_.sample(grid_, particles_, wounds_, count_, shares_, *executor_);
+  clock_.lap(Stage::tissue);
+  counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
+  clock_.lap(Stage::density);
+  passes_.force(grid_, particles_, count_, shares_, *executor_);
+  clock_.lap(Stage::force);
+  walls_.addForces(particles_, passes_, shares_, *executor_);
+  if (applied_force_ && !applied_force_->empty()) {
+    const AppliedForceEvents events = applied_force_->add(time_, grid_, particles_, passes_.acceleration());
+    counter(Counter::force_expired) += events.expired;
+    counter(Counter::force_without_fluid) += events.without_fluid;
+  }
+  clock_.lap(Stage::body);
+}
+
+template <class Real>
+void WorldCore<Real>::finishStep(double dt) {
+  executor_->run(shares_, [&](int share) {
+    kick_results_[static_cast<std::size_t>(share)] = closingKick(
+        particles_, passes_.acceleration(), gravity_, static_cast<Real>(0.5 * dt), caps_, ShareRange{count_, share, shares_});
+  });
+  KickResult<Real>& total = kick_results_[0];
+  for (int share = 1; share < shares_; ++share) {
+    const KickResult<Real>& result = kick_results_[static_cast<std::size_t>(share)];
+    total.max_speed2 = std::max(total.max_speed2, result.max_speed2);
+    total.max_acceleration2 = std::max(total.max_acceleration2, result.max_acceleration2);
+    total.speed_clamped += result.speed_clamped;
+    total.acceleration_clamped += result.acceleration_clamped;
+    total.finite = total.finite && result.finite;
+  }
+  faulted_ = !total.finite;
+  if (faulted_) return;
+  counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
+  counter(Counter::speed_clamped) += total.speed_clamped;
+  counter(Counter::acceleration_clamped) += total.acceleration_clamped;
+  max_speed_ = std::sqrt(static_cast<double>(total.max_speed2));
+}
+
+template <class Real>
+Bounds<Real> WorldCore<Real>::boundsOf() const {
+  Bounds<Real> bounds;
+  for (std::uint32_t i = 0; i < count_; ++i) bounds.include(particles_.x[i], particles_.y[i], particles_.z[i]);
+  return bounds;
+}
+
+template <class Real>
+Result<Applied> WorldCore<Real>::apply(const Command& command) {
+  const auto withdraw_throat = [this](const Throat& throat) { withdraw(throat); };
+  if (const auto* add = std::get_if<AddWound>(&command)) {
+    const Result<std::uint32_t> added = wounds_.add(add->wound);
+    if (!added) return added.status();
+    return Applied{*added};
+  }
+  if (const auto* update = std::get_if<UpdateWound>(&command)) {
+    if (Status status = wounds_.update(*update, withdraw_throat); !status.ok()) return status;
+    return Applied{update->wound_id};
+  }
+  if (const auto* remove = std::get_if<RemoveWound>(&command)) {
+    if (Status status = wounds_.remove(remove->wound_id, withdraw_throat); !status.ok()) return status;
+    return Applied{remove->wound_id};
+  }
+  if (!applied_force_) {
+    return Status{StatusCode::unsupported, "this scene has no applied_force effect; add 'effects { applied_force {} }' to it"};
+  }
+  const auto* set = std::get_if<SetForce>(&command);
+  if (Status status = set != nullptr ? applied_force_->set(*set) : applied_force_->remove(std::get<RemoveForce>(command).key);
+      !status.ok()) {
+    return status;
+  }
+  return Applied{};
+}
+
+template <class Real>
+void WorldCore<Real>::withdraw(const Throat& throat) {
+  Real* a = passes_.acceleration();
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    if (particles_.driver[i] != 0 && unpackInletTag(particles_.driver[i]).slot == throat.slot()) {
+      const InletState state = wounds_.kinematics(particles_.driver[i]);
+      if (state.phase == InletPhase::throat) {
+        --unseen_;
+        continue;
+      }
+      particles_.driver[i] = 0;
+      particles_.vx[i] = static_cast<Real>(state.velocity.x());
+      particles_.vy[i] = static_cast<Real>(state.velocity.y());
+      particles_.vz[i] = static_cast<Real>(state.velocity.z());
+    }
+    if (kept != i) {
+      particles_.copyOne(kept, particles_, i);
+      std::copy_n(a + std::size_t{i} * 4, 4, a + std::size_t{kept} * 4);
+      passes_.moveDensity(kept, i);
+    }
+    ++kept;
+  }
+  count_ = kept;
+}
+
+template <class Real>
+void WorldCore<Real>::collectStats(WorldStats& stats) const {
+  stats.step = steps_;
+  stats.time = time_;
+  stats.dt = last_dt_;
+  stats.particles = particleCount();
+  stats.injected = injected_;
+  stats.removed = removed_;
+  stats.emitted_volume = wounds_.emittedVolume();
+  stats.commanded_volume = wounds_.commandedVolume();
+  stats.max_speed = max_speed_;
+  addParticleStats(particles_, passes_.density(), count_, description_.rest_density, lattice_.particle_mass, stats);
+  stats.stage_seconds = clock_.seconds();
+  stats.counters = counters_;
+  stats.counters[static_cast<std::size_t>(Counter::emission_refused)] = wounds_.refusedParticles();
+  stats.counters[static_cast<std::size_t>(Counter::inlet_withdrawn)] = wounds_.withdrawnParticles();
+}
+
+template <class Real>
+void WorldCore<Real>::copyFrame(FrameBuffer& frame, std::uint32_t attributes) const {
+  frame.step = steps_;
+  frame.time = time_;
+  copyVisible(particles_, passes_.density(), count_, h_, wounds_,
+              description_.effects.viscosity ? description_.effects.viscosity->viscosity : 0.0, attributes, frame);
+}
+
+template <class Real>
+std::uint64_t WorldCore<Real>::stateHash() const {
+  return hashState(particles_, count_, time_);
+}
+
+template class WorldCore<float>;
+template class WorldCore<double>;
+
+}  // namespace bleedsim::sph

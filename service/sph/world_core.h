@@ -1,0 +1,99 @@
+// World for one scalar type: owns the state and runs the stages of a step.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "service/sph/effects/applied_force.h"
+#include "service/sph/executor.h"
+#include "service/sph/integrate/kick_drift.h"
+#include "service/sph/integrate/time_step.h"
+#include "service/sph/neighbors/cell_grid.h"
+#include "service/sph/particles.h"
+#include "service/sph/passes/pair_passes.h"
+#include "service/sph/rest_lattice.h"
+#include "service/sph/seeding.h"
+#include "service/sph/stage_clock.h"
+#include "service/sph/tissue/wall_effects.h"
+#include "service/sph/world.h"
+#include "service/sph/wound/wound_set.h"
+
+namespace bleedsim::sph {
+
+template <class Real>
+class WorldCore final : public World {
+ public:
+  /// `tissue` of the description, already built; `table` of `target`.
+  WorldCore(const WorldDescription& description, const WorldOptions& options, SimdTarget target, const PassTable<Real>& table,
+            const RestLattice& lattice, TissueField<Real> tissue);
+
+  /// Places the fluid blocks and opens the scene's wounds; then computes the first accelerations. Once, before the first step.
+  Status populate();
+
+  Result<Applied> apply(const Command& command) override;
+  Status step(double dt_limit) override;
+  std::uint64_t stepCount() const override { return steps_; }
+  double time() const override { return time_; }
+  std::uint32_t particleCount() const override { return count_ - unseen_; }
+  void collectStats(WorldStats& stats) const override;
+  std::span<const WoundState> wounds() const override { return wounds_.states(); }
+  void copyFrame(FrameBuffer& frame, std::uint32_t attributes) const override;
+  std::uint64_t stateHash() const override;
+  const WorldDescription& description() const override { return description_; }
+  SimdTarget simdTarget() const override { return target_; }
+  double speedOfSound() const override { return speed_of_sound_; }
+  double particleMass() const override { return lattice_.particle_mass; }
+  bool faulted() const override { return faulted_; }
+
+ private:
+  // The stages, in order.
+  void emit(double dt);
+  void move(double dt);
+  void findNeighbors(const Bounds<Real>& bounds);
+  void computeAccelerations();
+  void finishStep(double dt);
+
+  Bounds<Real> boundsOf() const;
+  void chooseShares();
+  void withdraw(const Throat& throat);
+  std::uint64_t& counter(Counter c) { return counters_[static_cast<std::size_t>(c)]; }
+
+  WorldDescription description_;
+  SimdTarget target_;
+  double speed_of_sound_;
+  RestLattice lattice_;
+  double h_;
+  DomainBox<Real> domain_;
+  MotionCaps<Real> caps_;
+  std::array<Real, 3> gravity_{};
+  TimeStepLimits limits_;
+
+  std::unique_ptr<Executor> executor_;
+  int shares_ = 1;
+  Particles<Real> particles_, sorted_;
+  CellGrid<Real> grid_;
+  PairPasses<Real> passes_;
+  WallEffects<Real> walls_;
+  WoundSet wounds_;
+  std::optional<AppliedForce<Real>> applied_force_;
+  std::vector<DriftResult<Real>> drift_results_;
+  std::vector<KickResult<Real>> kick_results_;
+
+  std::uint32_t count_ = 0;   // particles in the arrays, those behind patches included
+  std::uint32_t unseen_ = 0;  // of them behind patches
+  std::uint32_t next_id_ = 1;
+  std::uint64_t injected_ = 0;
+  std::uint64_t removed_ = 0;
+  std::uint64_t steps_ = 0;
+  double time_ = 0.0;
+  double last_dt_ = 0.0;
+  double next_dt_ = 0.0;
+  double max_speed_ = 0.0;
+  bool faulted_ = false;
+  StageClock clock_;
+  std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> counters_{};
+};
+
+}  // namespace bleedsim::sph
