@@ -72,11 +72,17 @@ class Reader {
     return dds_get_subscription_matched_status(handle(), &status) == DDS_RETCODE_OK ? status.current_count : 0;
   }
 
-  /// Writers that are matched and hold their liveliness; a handle that is missing here is gone. Clears the matched and
-  /// liveliness status of a wait set.
-  std::vector<PublicationHandle> matchedPublications() const {
+  /// Matching writers that hold their liveliness. Clears the matched and liveliness status of a wait set.
+  std::size_t aliveCount() const {
     dds_liveliness_changed_status_t liveliness{};
-    dds_get_liveliness_changed_status(handle(), &liveliness);
+    matchedCount();
+    return dds_get_liveliness_changed_status(handle(), &liveliness) == DDS_RETCODE_OK ? liveliness.alive_count : 0;
+  }
+
+  /// Matching writers; a handle that is missing here is gone. That of a killed process stays for the lease of 3 s. Clears the
+  /// matched and liveliness status of a wait set.
+  std::vector<PublicationHandle> matchedPublications() const {
+    aliveCount();
     std::vector<PublicationHandle> out(matchedCount() + 16);
     const dds_return_t count = dds_get_matched_publications(handle(), out.data(), out.size());
     out.resize(count < 0 ? 0 : std::min(out.size(), static_cast<std::size_t>(count)));

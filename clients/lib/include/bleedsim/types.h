@@ -1,0 +1,121 @@
+// Values of the client library: plain data in SI units unless a name says otherwise. Positions are right-handed in the frame of
+// the scene (SceneInfo::frame_id), quaternions are x, y, z, w, stamps are nanoseconds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "service/status/status.h"
+
+namespace bleedsim::client {
+
+using Vec3 = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;
+using Uuid = std::array<std::uint8_t, 16>;
+
+enum class SessionState { loading, running, paused, faulted, stopped, unknown };
+const char* toString(SessionState state);
+
+enum class PaceMode { real_time, factor, maximum };
+
+using NamedCounter = std::pair<std::string, std::uint64_t>;
+
+/// What a session says of itself, at least twice a second and at every change.
+struct SessionStatus {
+  Uuid session{};
+  std::string name;
+  SessionState state = SessionState::unknown;
+  std::uint32_t epoch = 0;  ///< rises with each reset or load_scene
+  std::uint64_t step = 0;
+  double sim_time_s = 0.0;
+  std::uint64_t heartbeat = 0;
+  PaceMode pace = PaceMode::real_time;
+  double pace_factor = 1.0;
+  double real_time_factor = 0.0;
+  double frame_rate_hz = 0.0;
+  std::uint32_t particles = 0;
+  std::uint32_t wounds = 0;
+  std::vector<NamedCounter> counters;
+  std::string text;
+  std::string version;
+  std::string host;
+  std::int32_t pid = 0;
+  std::int64_t monotonic_stamp_ns = 0;
+  std::int64_t realtime_stamp_ns = 0;
+};
+
+/// The scene that runs; sent at each load and to late joiners.
+struct SceneInfo {
+  Uuid session{};
+  std::string session_name;
+  std::uint32_t epoch = 0;
+  std::uint32_t protocol_major = 0;
+  std::uint32_t protocol_minor = 0;
+  std::string version;
+  std::string build_id;
+  std::string simd_target;
+  std::string precision;
+  std::string name;
+  std::string text;  ///< protobuf text of the scene
+  std::uint64_t seed = 0;
+  std::vector<std::string> effects;
+  std::string frame_id;
+  std::string length_unit;
+  std::string axes;
+  Vec3 lower_bound{};
+  Vec3 upper_bound{};
+  double spacing_m = 0.0;
+  double support_radius_m = 0.0;
+  double particle_volume_ml = 0.0;
+  double rest_density_kg_per_m3 = 0.0;
+  double speed_of_sound_m_per_s = 0.0;
+  double frame_rate_hz = 0.0;
+  std::uint32_t capacity = 0;
+};
+
+struct WoundFlow {
+  std::uint32_t id = 0;
+  double emitted_ml = 0.0;
+  double flow_ml_per_s = 0.0;
+};
+
+/// The newest instrument sample that a step has used, of one client.
+struct AppliedInstrument {
+  Uuid client{};
+  std::uint64_t seq = 0;
+  std::int64_t client_stamp_ns = 0;
+  std::uint64_t step = 0;
+};
+
+/// Figures of one frame, with the frame's seq.
+struct FrameStats {
+  Uuid session{};
+  std::uint64_t seq = 0;
+  std::uint32_t epoch = 0;
+  std::uint64_t step = 0;
+  double sim_time_s = 0.0;
+  double dt_s = 0.0;
+  std::uint32_t steps_in_frame = 0;
+  double real_time_factor = 0.0;  ///< simulated over wall seconds since the last change of pace
+  double behind_s = 0.0;          ///< wall time that the pacing owes
+  std::vector<std::pair<std::string, double>> stage_costs_us;
+  double mean_density_error = 0.0;
+  double max_density_error = 0.0;
+  double max_speed_m_per_s = 0.0;
+  double kinetic_energy_j = 0.0;
+  std::uint64_t state_hash = 0;
+  std::uint32_t particles = 0;
+  std::uint64_t injected = 0;
+  std::uint64_t removed = 0;
+  double emitted_ml = 0.0;
+  double commanded_ml = 0.0;
+  std::vector<WoundFlow> wounds;
+  std::vector<NamedCounter> fault_counters;
+  std::uint64_t frames_overwritten = 0;
+  std::vector<AppliedInstrument> instruments;
+};
+
+}  // namespace bleedsim::client

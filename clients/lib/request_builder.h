@@ -1,0 +1,21 @@
+// Commands of the library -> requests of the wire. Values are the service's to judge; what does not fit the wire is refused here.
+#pragma once
+
+#include "bleedsim/commands.h"
+#include "clients/lib/request_tracker.h"
+
+namespace bleedsim::client {
+
+Result<RequestPointer> buildAddWound(const WoundSpec& wound);
+Result<RequestPointer> buildUpdateWound(std::uint32_t wound_id, const WoundChange& change);
+RequestPointer buildRemoveWound(std::uint32_t wound_id);
+RequestPointer buildForce(const ForceSpec& force);
+RequestPointer buildStep(std::uint32_t count);
+RequestPointer buildPace(const Pace& pace);
+Result<RequestPointer> buildOutput(const OutputSpec& output);
+Result<RequestPointer> buildLoadScene(const std::string& text);
+RequestPointer buildPing(std::int64_t stamp_ns);
+/// REQUEST_PAUSE, _RESUME, _RESET or _SHUTDOWN.
+RequestPointer buildPlain(std::uint32_t request);
+
+}  // namespace bleedsim::client
