@@ -26,7 +26,7 @@ class VariationalPressure {
 
   VariationalPressure(const ForceJob<Real>&, const Real* record) : own_{L::set(record[kRecordPressure])} {}
 
-  void pair(const Pair<L>& p, PairSums<L>& sums) const {
+  HWY_INLINE void pair(const Pair<L>& p, PairSums<L>& sums) const {
     const auto push = p.gradient * (p.field[kRecordPressure] + own_);
     sums.ax = L::subMul(sums.ax, push, p.dx);
     sums.ay = L::subMul(sums.ay, push, p.dy);

@@ -35,7 +35,7 @@ class Viscosity {
     if constexpr (kHarmonic) own_inverse_ = L::set(record[kRecordInverseViscosity]);
   }
 
-  void pair(const Pair<L>& p, PairSums<L>& sums) const {
+  HWY_INLINE void pair(const Pair<L>& p, PairSums<L>& sums) const {
     V divisor = p.q2 + L::set(Real(0.01));
     if constexpr (kHarmonic) divisor = divisor * (own_inverse_ + p.field[kRecordInverseViscosity]);
     const V drag = scale_ * (p.q2 * p.gradient * p.field[kRecordInverseDensity] / divisor);

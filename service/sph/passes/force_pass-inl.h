@@ -7,7 +7,6 @@
 #endif
 
 #include <algorithm>
-#include <tuple>
 
 #include "service/sph/passes/pair_geometry-inl.h"
 #include "service/sph/passes/pass_jobs.h"
@@ -15,6 +14,16 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
+
+/// The enabled effects for one particle. Plain inheritance: standard library helpers are compiled for the baseline and would not
+/// be inlined here.
+template <class L, class... Effects>
+class EffectPack : private Effects... {
+ public:
+  using Real = typename L::Scalar;
+  EffectPack(const ForceJob<Real>& job, const Real* record) : Effects{job, record}... {}
+  HWY_INLINE void pair(const Pair<L>& p, PairSums<L>& sums) const { (Effects::pair(p, sums), ...); }
+};
 
 template <class L, bool kPeriodic, class... Effects>
 class ForcePass {
@@ -41,14 +50,14 @@ class ForcePass {
 
   static void particle(const ForceJob<Real>& job, std::uint32_t i, const std::uint32_t* list, int blocks) {
     const Real* own = job.record + static_cast<std::size_t>(i) * kStride;
-    const std::tuple<Effects...> effects{Effects{job, own}...};
+    const EffectPack<L, Effects...> effects{job, own};
     PairSums<L> sums{L::set(Real(0)), L::set(Real(0)), L::set(Real(0))};
     addBlocks(job, own, list, blocks, effects, sums);
     L::storeSums(sums.ax, sums.ay, sums.az, job.acceleration + static_cast<std::size_t>(i) * 4);
   }
 
   HWY_INLINE static void addBlocks(const ForceJob<Real>& job, const Real* own, const std::uint32_t* list, int blocks,
-                                   const std::tuple<Effects...>& effects, PairSums<L>& sums) {
+                                   const EffectPack<L, Effects...>& effects, PairSums<L>& sums) {
     const V x = L::set(own[kRecordX]);
     const V y = L::set(own[kRecordY]);
     const V z = L::set(own[kRecordZ]);
@@ -67,7 +76,7 @@ class ForcePass {
       }
       p.q2 = L::mulAdd(p.dz, p.dz, L::mulAdd(p.dy, p.dy, p.dx * p.dx));
       p.gradient = WendlandC2<L>::gradient(L::max(one - L::sqrt(p.q2), zero));
-      std::apply([&](const Effects&... effect) { (effect.pair(p, sums), ...); }, effects);
+      effects.pair(p, sums);
     }
   }
 
@@ -81,7 +90,7 @@ class ForcePass {
   /// A particle with more neighbours than a list holds: lists of its own, one after the other.
   static void particleWithoutList(const ForceJob<Real>& job, std::uint32_t i, int row) {
     const Real* own = job.record + static_cast<std::size_t>(i) * kStride;
-    const std::tuple<Effects...> effects{Effects{job, own}...};
+    const EffectPack<L, Effects...> effects{job, own};
     PairSums<L> sums{L::set(Real(0)), L::set(Real(0)), L::set(Real(0))};
 
     int cx = 1;

@@ -14,6 +14,8 @@
 #include <cstdint>
 #include <hwy/highway.h>
 
+#include "service/sph/passes/compress_lanes.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -51,9 +53,24 @@ struct WideLanes {
 
   static Mask below(V a, V b) { return hn::Lt(a, b); }
   static int countTrue(Mask m) { return static_cast<int>(hn::CountTrue(Tag{}, m)); }
+#if HWY_TARGET == HWY_AVX2
+  // Highway 1.0.3 holds its table in a local constant, which GCC 12 copies to the stack at each use: 10x slower.
+  static auto compressIndices(Mask m) {
+    std::uint8_t bits = 0;
+    hn::StoreMaskBits(Tag{}, m, &bits);
+    const hn::Rebind<std::uint8_t, Tag> bytes;
+    const auto lanes = hn::LoadU(bytes, reinterpret_cast<const std::uint8_t*>(&kCompressLanes[bits]));
+    return hn::IndicesFromVec(Tag{}, hn::PromoteTo(hn::Rebind<std::int32_t, Tag>{}, lanes));
+  }
+  static void compress(V v, Mask m, float* p) { storeUnaligned(hn::TableLookupLanes(v, compressIndices(m)), p); }
+  static void compress(Ids v, Mask m, std::uint32_t* p) {
+    storeIds(hn::BitCast(IdTag{}, hn::TableLookupLanes(hn::BitCast(Tag{}, v), compressIndices(m))), p);
+  }
+#else
   /// Writes the lanes under the mask to the front; up to a vector's width of other values behind them.
-  static void compress(V v, Mask m, float* p) { hn::StoreU(hn::Compress(v, m), Tag{}, p); }
-  static void compress(Ids v, Mask m, std::uint32_t* p) { hn::StoreU(hn::Compress(v, hn::RebindMask(IdTag{}, m)), IdTag{}, p); }
+  static void compress(V v, Mask m, float* p) { storeUnaligned(hn::Compress(v, m), p); }
+  static void compress(Ids v, Mask m, std::uint32_t* p) { storeIds(hn::Compress(v, hn::RebindMask(IdTag{}, m)), p); }
+#endif
 
   /// 0 in the first `left` lanes, far away in the others.
   static V tail(std::uint32_t left) {
