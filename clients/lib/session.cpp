@@ -67,6 +67,11 @@ bool Session::alive() const {
   return impl_->alive;
 }
 
+bool Session::waitGone(std::chrono::nanoseconds timeout) {
+  std::unique_lock lock{impl_->mutex};
+  return impl_->changed.wait_for(lock, timeout, [&] { return !impl_->alive; });
+}
+
 std::future<Reply> Session::addWound(const WoundSpec& wound) { return impl_->submit(buildAddWound(wound)); }
 std::future<Reply> Session::updateWound(std::uint32_t wound_id, const WoundChange& change) {
   return impl_->submit(buildUpdateWound(wound_id, change));

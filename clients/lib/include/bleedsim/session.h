@@ -57,6 +57,8 @@ class Session {
   Result<SceneInfo> waitScene(std::chrono::nanoseconds timeout);
   /// False once the session has stopped or was not heard of for 2 to 3 s.
   bool alive() const;
+  /// Waits until alive() is false; false: it still lives.
+  bool waitGone(std::chrono::nanoseconds timeout);
 
   // ---- commands. Each is sent again until it is answered; the session acts on it once.
   std::future<Reply> addWound(const WoundSpec& wound);

@@ -1,0 +1,105 @@
+// pause, resume, reset, step, pace, load and shutdown.
+#include <fmt/core.h>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "clients/bleedctl/context.h"
+
+namespace bleedsim::bleedctl {
+namespace {
+
+using client::PaceMode;
+using client::Session;
+
+client::SessionOptions commandsOnly() { return {.delivery = client::Delivery::none}; }
+
+/// Adds a command that sends one request without arguments.
+void addPlain(CLI::App& app, Context& context, const std::string& name, const std::string& help, const std::string& done,
+              std::future<client::Reply> (Session::*request)()) {
+  app.add_subcommand(name, help)->callback([&context, done, request] {
+    context.action = [&context, done, request] {
+      int code = kDone;
+      std::optional<Connection> connection = connect(context, commandsOnly(), code);
+      return connection ? finish(context, (connection->session.*request)(), done) : code;
+    };
+  });
+}
+
+Result<client::Pace> parsePace(const std::string& text) {
+  if (text == "realtime") return client::Pace{.mode = PaceMode::real_time};
+  if (text == "max") return client::Pace{.mode = PaceMode::maximum};
+  if (checkFinite(text).empty()) {
+    const double factor = std::stod(text);
+    if (factor > 0.0) return client::Pace{.mode = PaceMode::factor, .factor = factor};
+  }
+  return Status{StatusCode::invalid_argument,
+                fmt::format("pace '{}' is not known: use realtime, max or a factor above 0, as 0.5", text)};
+}
+
+int runLoad(const Context& context, const std::string& path) {
+  std::ifstream file{path, std::ios::binary};
+  if (!file) return fail(kFile, fmt::format("could not read '{}': check the path and its permissions", path));
+  const std::string text{std::istreambuf_iterator<char>{file}, {}};
+  if (file.bad() || text.empty()) return fail(kFile, fmt::format("'{}' is empty or not a file: give a .textproto scene", path));
+  int code = kDone;
+  std::optional<Connection> connection = connect(context, commandsOnly(), code);
+  return connection ? finish(context, connection->session.loadScene(text), fmt::format("loaded {}", path)) : code;
+}
+
+int runShutdown(const Context& context) {
+  int code = kDone;
+  std::optional<Connection> connection = connect(context, commandsOnly(), code);
+  if (!connection) return code;
+  client::Session& session = connection->session;
+  const int answered = finish(context, session.shutdown(), "shut down");
+  if (answered != kDone) return answered;
+  if (session.waitGone(context.timeout())) return kDone;
+  return fail(kNoSession, fmt::format("session '{}' accepted, but still runs", session.name()));
+}
+
+}  // namespace
+
+void addControlCommands(CLI::App& app, Context& context) {
+  addPlain(app, context, "pause", "Stop the simulated clock", "paused", &Session::pause);
+  addPlain(app, context, "resume", "Let the simulated clock run again", "resumed", &Session::resume);
+  addPlain(app, context, "reset", "Start the scene again from its beginning", "reset", &Session::reset);
+
+  CLI::App* step = app.add_subcommand("step", "Make N solver steps; the session has to be paused");
+  const auto count = std::make_shared<std::uint32_t>(1);
+  step->add_option("N", *count, "Number of steps")->required()->check(CLI::Range(1U, 1'000'000'000U));
+  step->callback([&context, count] {
+    context.action = [&context, count] {
+      int code = kDone;
+      std::optional<Connection> connection = connect(context, commandsOnly(), code);
+      return connection ? finish(context, connection->session.step(*count), fmt::format("{} steps begun", *count)) : code;
+    };
+  });
+
+  CLI::App* pace = app.add_subcommand("pace", "Simulated against wall time: realtime, max, or a factor such as 0.5");
+  const auto mode = std::make_shared<std::string>();
+  pace->add_option("PACE", *mode, "realtime, max or X")->required()->check([](const std::string& text) {
+    const Result<client::Pace> parsed = parsePace(text);
+    return parsed.ok() ? std::string{} : parsed.status().message();
+  });
+  pace->callback([&context, mode] {
+    context.action = [&context, mode] {
+      int code = kDone;
+      const Result<client::Pace> parsed = parsePace(*mode);
+      if (!parsed) return fail(parsed.status());
+      std::optional<Connection> connection = connect(context, commandsOnly(), code);
+      return connection ? finish(context, connection->session.pace(*parsed), fmt::format("pace {}", *mode)) : code;
+    };
+  });
+
+  CLI::App* load = app.add_subcommand("load", "Load another scene into the session");
+  const auto path = std::make_shared<std::string>();
+  load->add_option("FILE", *path, "Scene in protobuf text, as config/scenes/round_wound.textproto")->required();
+  load->callback([&context, path] { context.action = [&context, path] { return runLoad(context, *path); }; });
+
+  app.add_subcommand("shutdown", "End the session's daemon and wait until it is gone")->callback([&context] {
+    context.action = [&context] { return runShutdown(context); };
+  });
+}
+
+}  // namespace bleedsim::bleedctl

@@ -1,0 +1,27 @@
+// What bleedctl's exit status means; the same text stands in --help.
+#pragma once
+
+#include "service/status/status.h"
+
+namespace bleedsim::bleedctl {
+
+enum ExitCode : int {
+  kDone = 0,
+  kFailed = 1,     ///< the session refused, or something failed
+  kUsage = 2,      ///< wrong command line, unknown interface or domain
+  kNoSession = 3,  ///< the session was not found, or did not answer in time
+  kFile = 4,       ///< a file could not be read or written, or is damaged
+};
+
+inline constexpr const char* kExitCodeText =
+    "Exit codes:\n"
+    "  0  done\n"
+    "  1  the session refused the command, or something failed\n"
+    "  2  wrong command line, domain or interface\n"
+    "  3  no such session, or no answer within --timeout\n"
+    "  4  a file could not be read or written, or is damaged\n";
+
+/// For failures of the client library.
+ExitCode exitCodeOf(const Status& status);
+
+}  // namespace bleedsim::bleedctl

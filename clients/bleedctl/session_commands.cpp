@@ -1,0 +1,159 @@
+// list, status and watch.
+#include <cstdio>
+#include <fmt/core.h>
+#include <memory>
+#include <unistd.h>
+
+#include "clients/bleedctl/context.h"
+#include "clients/bleedctl/json.h"
+#include "clients/bleedctl/stop_signal.h"
+
+namespace bleedsim::bleedctl {
+namespace {
+
+constexpr std::chrono::milliseconds kListWindow{1000};
+constexpr std::chrono::milliseconds kWatchInterval{200};
+constexpr std::chrono::seconds kSceneTimeout{2};
+
+std::string paceText(const client::SessionStatus& status) {
+  switch (status.pace) {
+    case client::PaceMode::real_time:
+      return "realtime";
+    case client::PaceMode::maximum:
+      return "max";
+    case client::PaceMode::factor:
+      break;
+  }
+  return fmt::format("{}", status.pace_factor);
+}
+
+JsonObject statusJson(const client::SessionStatus& status) {
+  JsonObject json;
+  json.add("session", status.name).add("state", client::toString(status.state)).add("epoch", status.epoch);
+  json.add("step", status.step).add("sim_time_s", status.sim_time_s).add("pace", paceText(status));
+  json.add("real_time_factor", status.real_time_factor).add("frame_rate_hz", status.frame_rate_hz);
+  json.add("particles", status.particles).add("wounds", status.wounds).add("text", status.text);
+  json.add("version", status.version).add("host", status.host).add("pid", status.pid).add("heartbeat", status.heartbeat);
+  JsonObject counters;
+  for (const auto& [name, value] : status.counters) counters.add(name, value);
+  return json.raw("counters", counters.text());
+}
+
+int runList(const Context& context) {
+  Result<client::Client> client = client::Client::create(context.connection);
+  if (!client) return fail(client.status());
+  const std::vector<client::SessionStatus> sessions = client->listSessions(kListWindow);
+  if (context.json) {
+    JsonArray array;
+    for (const client::SessionStatus& status : sessions) array.raw(statusJson(status).text());
+    fmt::print("{}\n", array.text());
+    return kDone;
+  }
+  if (sessions.empty()) fmt::print(stderr, "no sessions on domain {}\n", context.connection.domain);
+  for (const client::SessionStatus& status : sessions) {
+    fmt::print("{:<20} {:<8} {:>10.3f} s {:>9} particles  {} pid {}\n", status.name, client::toString(status.state),
+               status.sim_time_s, status.particles, status.host, status.pid);
+  }
+  return kDone;
+}
+
+void printStatus(const client::SessionStatus& status, const Result<client::SceneInfo>& scene) {
+  fmt::print("session           {} ({} on {}, pid {})\n", status.name, status.version, status.host, status.pid);
+  fmt::print("state             {}{}{}\n", client::toString(status.state), status.text.empty() ? "" : ": ", status.text);
+  fmt::print("simulated         {:.3f} s, step {}, epoch {}\n", status.sim_time_s, status.step, status.epoch);
+  fmt::print("pace              {}, real-time factor {:.2f}\n", paceText(status), status.real_time_factor);
+  fmt::print("frames            {} per simulated second\n", status.frame_rate_hz);
+  fmt::print("particles         {}, wounds {}\n", status.particles, status.wounds);
+  if (scene.ok()) {
+    std::string effects;
+    for (const std::string& effect : scene->effects) effects += (effects.empty() ? "" : ", ") + effect;
+    fmt::print("scene             {} ({}, seed {}, SIMD {})\n", scene->name, scene->precision, scene->seed, scene->simd_target);
+    fmt::print("effects           {}\n", effects);
+    fmt::print("spacing           {} mm, capacity {}\n", scene->spacing_m * 1e3, scene->capacity);
+  }
+  for (const auto& [name, value] : status.counters) {
+    if (value != 0) fmt::print("{:<17} {}\n", name, value);
+  }
+}
+
+int runStatus(const Context& context) {
+  int code = kDone;
+  std::optional<Connection> connection = connect(context, {.delivery = client::Delivery::none}, code);
+  if (!connection) return code;
+  const auto any = [](const client::SessionStatus&) { return true; };
+  const Result<client::SessionStatus> status = connection->session.waitStatus(any, context.timeout());
+  if (!status) return fail(status.status());
+  Result<client::SceneInfo> scene = Status{StatusCode::unavailable, "the scene is loading"};
+  if (status->state != client::SessionState::loading) scene = connection->session.waitScene(kSceneTimeout);
+  if (!context.json) {
+    printStatus(*status, scene);
+    return kDone;
+  }
+  JsonObject json = statusJson(*status);
+  if (scene.ok()) {
+    JsonArray effects;
+    for (const std::string& effect : scene->effects) effects.raw(jsonString(effect));
+    JsonObject scene_json;
+    scene_json.add("name", scene->name).add("seed", scene->seed).raw("effects", effects.text());
+    scene_json.add("spacing_m", scene->spacing_m).add("capacity", scene->capacity).add("build_id", scene->build_id);
+    scene_json.add("simd_target", scene->simd_target).add("precision", scene->precision).add("frame_id", scene->frame_id);
+    json.raw("scene", scene_json.text());
+  }
+  fmt::print("{}\n", json.text());
+  return kDone;
+}
+
+void printWatch(const Context& context, const client::SessionStatus& status, const client::FrameStats& stats,
+                const client::FrameCounters& frames) {
+  if (context.json) {
+    JsonObject json;
+    json.add("state", client::toString(status.state)).add("seq", stats.seq).add("step", stats.step);
+    json.add("sim_time_s", stats.sim_time_s).add("real_time_factor", stats.real_time_factor).add("behind_s", stats.behind_s);
+    json.add("particles", stats.particles).add("ml_emitted", stats.emitted_ml).add("frames", frames.received);
+    fmt::print("{}\n", json.add("gaps", frames.gaps).text());
+  } else {
+    const bool terminal = isatty(STDOUT_FILENO) == 1;
+    fmt::print("{}{:<7} {:>9.3f} s  {:>5.2f} x real time  {:>8} particles  {:>9.3f} mL  {} frames, {} gaps{}",
+               terminal ? "\r" : "", client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.particles,
+               stats.emitted_ml, frames.received, frames.gaps, terminal ? "\x1b[K" : "\n");
+  }
+  std::fflush(stdout);
+}
+
+int runWatch(const Context& context, std::uint64_t count) {
+  int code = kDone;
+  std::optional<Connection> connection = connect(context, {}, code);
+  if (!connection) return code;
+  client::Session& session = connection->session;
+  std::uint64_t printed = 0;
+  bool stopped = false;
+  while (!stopped && session.alive() && (count == 0 || printed < count)) {
+    stopped = waitForStopSignal(kWatchInterval);
+    session.tryTakeFrame();
+    const auto status = session.status();
+    const auto stats = session.stats();
+    if (!status || !stats) continue;
+    printWatch(context, *status, *stats, session.frameCounters());
+    ++printed;
+  }
+  if (isatty(STDOUT_FILENO) == 1 && !context.json) fmt::print("\n");
+  if (stopped || (count > 0 && printed >= count)) return kDone;
+  return fail(kNoSession, fmt::format("session '{}' is gone", session.name()));
+}
+
+}  // namespace
+
+void addSessionCommands(CLI::App& app, Context& context) {
+  app.add_subcommand("list", "List the sessions that run")->callback([&context] {
+    context.action = [&context] { return runList(context); };
+  });
+  app.add_subcommand("status", "Show a session's state and scene")->callback([&context] {
+    context.action = [&context] { return runStatus(context); };
+  });
+  CLI::App* watch = app.add_subcommand("watch", "Show time, real-time factor, particles, mL and gaps until Ctrl-C");
+  const auto count = std::make_shared<std::uint64_t>(0);
+  watch->add_option("--count", *count, "End after so many lines; 0: never");
+  watch->callback([&context, count] { context.action = [&context, count] { return runWatch(context, *count); }; });
+}
+
+}  // namespace bleedsim::bleedctl

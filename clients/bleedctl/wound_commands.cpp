@@ -1,0 +1,136 @@
+// wound add, move, set and remove; force.
+#include <fmt/core.h>
+#include <memory>
+
+#include "clients/bleedctl/context.h"
+
+namespace bleedsim::bleedctl {
+namespace {
+
+constexpr double kMetresPerMillimetre = 1e-3;
+
+/// What the options of these commands hold, as they were written.
+struct Values {
+  std::string at;
+  std::string normal;
+  std::string newtons;
+  std::string name;
+  double radius_mm = 0.0;
+  double flow_ml_per_s = 0.0;
+  double pressure_mmhg = 0.0;
+  double duration_s = 0.1;
+  std::uint32_t id = 0;
+};
+
+client::Vec3 vec3(const std::string& checked) { return parseVec3(checked).value(); }
+
+/// Runs `send` on the session.
+template <class Send>
+std::function<int()> command(const Context& context, const std::string& done, Send send) {
+  return [&context, done, send] {
+    int code = kDone;
+    std::optional<Connection> connection = connect(context, {.delivery = client::Delivery::none}, code);
+    return connection ? finish(context, send(connection->session), done) : code;
+  };
+}
+
+void addAdd(CLI::App& wound, Context& context) {
+  CLI::App* add = wound.add_subcommand("add", "Open a round wound; prints its ID");
+  const auto v = std::make_shared<Values>();
+  add->add_option("--at", v->at, "Centre X,Y,Z in m")->required()->check(checkVec3);
+  add->add_option("--radius-mm", v->radius_mm, "Radius in mm")->required()->check(checkFinite);
+  CLI::Option* flow = add->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(checkFinite);
+  CLI::Option* pressure =
+      add->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg instead of a flow")->check(checkFinite);
+  flow->excludes(pressure);
+  add->add_option("--normal", v->normal, "Outward direction X,Y,Z; default 0,0,1")->check(checkVec3);
+  add->add_option("--name", v->name, "Name of the wound");
+  add->callback([&context, v, flow, pressure] {
+    if (flow->count() + pressure->count() == 0) throw CLI::RequiredError("--flow-ml-per-s (or --pressure-mmhg)");
+    client::WoundSpec spec{.name = v->name, .position = vec3(v->at), .radius_m = v->radius_mm * kMetresPerMillimetre};
+    spec.flow_ml_per_s = v->flow_ml_per_s;
+    if (!v->normal.empty()) spec.normal = vec3(v->normal);
+    if (pressure->count() > 0) spec.pressure_mmhg = v->pressure_mmhg;
+    context.action = command(context, "wound opened", [spec](client::Session& s) { return s.addWound(spec); });
+  });
+}
+
+void addMove(CLI::App& wound, Context& context) {
+  CLI::App* move = wound.add_subcommand("move", "Move a wound");
+  const auto v = std::make_shared<Values>();
+  move->add_option("ID", v->id, "ID of the wound")->required();
+  move->add_option("--at", v->at, "New centre X,Y,Z in m")->required()->check(checkVec3);
+  move->add_option("--normal", v->normal, "New outward direction X,Y,Z")->check(checkVec3);
+  move->callback([&context, v] {
+    client::WoundChange change{.position = vec3(v->at)};
+    if (!v->normal.empty()) change.normal = vec3(v->normal);
+    context.action =
+        command(context, "wound moved", [id = v->id, change](client::Session& s) { return s.updateWound(id, change); });
+  });
+}
+
+void addSet(CLI::App& wound, Context& context) {
+  CLI::App* set = wound.add_subcommand("set", "Change a wound's flow, pressure, radius, direction or name");
+  const auto v = std::make_shared<Values>();
+  set->add_option("ID", v->id, "ID of the wound")->required();
+  CLI::Option* flow = set->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(checkFinite);
+  CLI::Option* pressure = set->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg")->check(checkFinite);
+  flow->excludes(pressure);
+  CLI::Option* radius = set->add_option("--radius-mm", v->radius_mm, "Radius in mm: the wound becomes round")->check(checkFinite);
+  CLI::Option* at = set->add_option("--at", v->at, "Centre X,Y,Z in m")->check(checkVec3);
+  CLI::Option* normal = set->add_option("--normal", v->normal, "Outward direction X,Y,Z")->check(checkVec3);
+  CLI::Option* name = set->add_option("--name", v->name, "Name of the wound");
+  set->callback([&context, v, flow, pressure, radius, at, normal, name] {
+    client::WoundChange change;
+    if (flow->count() > 0) change.flow_ml_per_s = v->flow_ml_per_s;
+    if (pressure->count() > 0) change.pressure_mmhg = v->pressure_mmhg;
+    if (radius->count() > 0) change.radius_m = v->radius_mm * kMetresPerMillimetre;
+    if (at->count() > 0) change.position = vec3(v->at);
+    if (normal->count() > 0) change.normal = vec3(v->normal);
+    if (name->count() > 0) change.name = v->name;
+    if (flow->count() + pressure->count() + radius->count() + at->count() + normal->count() + name->count() == 0) {
+      throw CLI::RequiredError("one of --flow-ml-per-s, --pressure-mmhg, --radius-mm, --at, --normal, --name");
+    }
+    context.action =
+        command(context, "wound changed", [id = v->id, change](client::Session& s) { return s.updateWound(id, change); });
+  });
+}
+
+void addRemove(CLI::App& wound, Context& context) {
+  CLI::App* remove = wound.add_subcommand("remove", "Close a wound; its blood stays");
+  const auto v = std::make_shared<Values>();
+  remove->add_option("ID", v->id, "ID of the wound")->required();
+  remove->callback([&context, v] {
+    context.action = command(context, "wound removed", [id = v->id](client::Session& s) { return s.removeWound(id); });
+  });
+}
+
+void addForce(CLI::App& app, Context& context) {
+  CLI::App* force = app.add_subcommand("force", "Push the blood within a radius with a total force");
+  const auto v = std::make_shared<Values>();
+  force->add_option("--at", v->at, "Centre X,Y,Z in m")->required()->check(checkVec3);
+  force->add_option("--radius-mm", v->radius_mm, "Reach in mm")->required()->check(checkFinite);
+  force->add_option("--newtons", v->newtons, "Force X,Y,Z in N")->required()->check(checkVec3);
+  force->add_option("--duration", v->duration_s, "Simulated seconds")->check(checkFinite)->capture_default_str();
+  force->callback([&context, v] {
+    const client::ForceSpec spec{.position = vec3(v->at),
+                                 .radius_m = v->radius_mm * kMetresPerMillimetre,
+                                 .newtons = vec3(v->newtons),
+                                 .duration_s = v->duration_s};
+    context.action = command(context, "force applied", [spec](client::Session& s) { return s.force(spec); });
+  });
+}
+
+}  // namespace
+
+void addWoundCommands(CLI::App& app, Context& context) {
+  CLI::App* wound = app.add_subcommand("wound", "Open, move, change or close wounds");
+  wound->require_subcommand(1);
+  addAdd(*wound, context);
+  addMove(*wound, context);
+  addSet(*wound, context);
+  addRemove(*wound, context);
+  addForce(app, context);
+}
+
+}  // namespace bleedsim::bleedctl
