@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+#include <limits>
+#include <vector>
+
+#include "clients/bleedctl/context.h"
+#include "clients/bleedctl/json.h"
+
+namespace bleedsim::bleedctl {
+namespace {
+
+int run(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "bleedctl");
+  return runBleedctl(static_cast<int>(arguments.size()), arguments.data());
+}
+
+TEST(ParseVec3, ReadsThreeNumbers) {
+  const auto parsed = parseVec3("0.01,-2e-3,+4");
+  ASSERT_TRUE(parsed.ok());
+  EXPECT_EQ(*parsed, (client::Vec3{0.01, -0.002, 4.0}));
+}
+
+TEST(ParseVec3, RefusesEverythingElse) {
+  for (const char* text : {"", "1,2", "1,2,3,4", "1,2,", ",,", "a,b,c", "1, 2,3", "nan,0,0", "inf,0,0", "1e999,0,0", "1,2,3x"}) {
+    EXPECT_FALSE(parseVec3(text).ok()) << text;
+  }
+}
+
+TEST(Json, EscapesAndWritesNonFiniteAsNull) {
+  EXPECT_EQ(jsonString("a\"b\\c\n"), "\"a\\\"b\\\\c\\u000a\"");
+  EXPECT_EQ(jsonNumber(0.1), "0.1");
+  EXPECT_EQ(jsonNumber(std::numeric_limits<double>::quiet_NaN()), "null");
+  EXPECT_EQ(JsonObject{}.add("a", 1U).add("b", "x").add("c", true).text(), R"({"a": 1, "b": "x", "c": true})");
+  EXPECT_EQ(JsonArray{}.raw("1").raw("{}").text(), "[1, {}]");
+}
+
+TEST(CommandLine, AnswersWrongUseWithCodeTwo) {
+  EXPECT_EQ(run({}), 2);
+  EXPECT_EQ(run({"dance"}), 2);
+  EXPECT_EQ(run({"status", "--loud"}), 2);
+  EXPECT_EQ(run({"--domain", "231", "list"}), 2);
+  EXPECT_EQ(run({"wound"}), 2);
+  EXPECT_EQ(run({"wound", "add", "--at", "1,2", "--radius-mm", "3", "--flow-ml-per-s", "1"}), 2);
+  EXPECT_EQ(run({"wound", "add", "--at", "1,2,3", "--radius-mm", "3"}), 2);
+  EXPECT_EQ(run({"wound", "add", "--at", "0,0,0", "--radius-mm", "nan", "--flow-ml-per-s", "1"}), 2);
+  EXPECT_EQ(run({"wound", "set", "4"}), 2);
+  EXPECT_EQ(run({"pace", "fast"}), 2);
+  EXPECT_EQ(run({"pace", "-1"}), 2);
+  EXPECT_EQ(run({"step", "0"}), 2);
+}
+
+TEST(CommandLine, HelpAndVersionSucceedForEveryCommand) {
+  EXPECT_EQ(run({"--help"}), 0);
+  EXPECT_EQ(run({"--version"}), 0);
+  for (const char* command :
+       {"list", "status", "watch", "pause", "resume", "reset", "step", "pace", "load", "shutdown", "force"}) {
+    EXPECT_EQ(run({command, "--help"}), 0) << command;
+  }
+  for (const char* command : {"add", "move", "set", "remove"}) EXPECT_EQ(run({"wound", command, "--help"}), 0) << command;
+}
+
+TEST(CommandLine, AMissingInterfaceOrFileHasItsOwnCode) {
+  EXPECT_EQ(run({"list", "--interface", "nosuch0"}), 2);
+  EXPECT_EQ(run({"--interface", "nosuch0", "list"}), 2);
+  EXPECT_EQ(run({"load", "/nosuch/scene.textproto"}), 4);
+}
+
+}  // namespace
+}  // namespace bleedsim::bleedctl

@@ -1,0 +1,72 @@
+#include "clients/lib/request_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace bleedsim::client {
+namespace {
+
+TEST(RequestBuilder, OwnsTheOutlineAndText) {
+  RequestPointer wound;
+  {
+    WoundSpec spec{.name = "w", .shape = WoundShape::polyline, .width_m = 0.001};
+    spec.outline = {0.0, 0.0, 0.01, 0.02};
+    wound = buildAddWound(spec).value();
+  }
+  const bleed_v1_Wound& wire = wound->wire.body._u.wound_add;
+  EXPECT_EQ(wound->wire.body._d, std::uint32_t{bleed_v1_REQUEST_WOUND_ADD});
+  ASSERT_EQ(wire.outline._length, 4U);
+  EXPECT_EQ(wire.outline._buffer[3], 0.02);
+  EXPECT_EQ(wire.shape, std::uint32_t{bleed_v1_SHAPE_POLYLINE});
+  const RequestPointer load = buildLoadScene(std::string(1000, 'x')).value();
+  EXPECT_EQ(std::string{load->wire.body._u.load_scene.text}.size(), 1000U);
+}
+
+TEST(RequestBuilder, ChoosesTheDrive) {
+  const auto flow = buildAddWound({.flow_ml_per_s = 2.0});
+  EXPECT_EQ((*flow)->wire.body._u.wound_add.drive, std::uint32_t{bleed_v1_DRIVE_FLOW});
+  WoundSpec spec;
+  spec.pressure_mmhg = 80.0;
+  const auto pressure = buildAddWound(spec);
+  EXPECT_EQ((*pressure)->wire.body._u.wound_add.drive, std::uint32_t{bleed_v1_DRIVE_PRESSURE});
+  EXPECT_EQ((*pressure)->wire.body._u.wound_add.pressure_mmhg, 80.0);
+}
+
+TEST(RequestBuilder, MarksExactlyTheChangedFields) {
+  WoundChange change;
+  change.position = Vec3{1, 2, 3};
+  change.flow_ml_per_s = 4.0;
+  const auto built = buildUpdateWound(8, change);
+  const bleed_v1_WoundUpdate& update = (*built)->wire.body._u.wound_update;
+  EXPECT_EQ(update.wound_id, 8U);
+  EXPECT_EQ(update.fields, std::uint32_t{bleed_v1_WOUND_FIELD_POSITION | bleed_v1_WOUND_FIELD_DRIVE});
+  EXPECT_EQ(update.wound.position.z, 3.0);
+  EXPECT_EQ(update.wound.flow_ml_per_s, 4.0);
+}
+
+TEST(RequestBuilder, RefusesWhatTheWireCannotCarry) {
+  EXPECT_EQ(buildAddWound({.name = std::string(65, 'n')}).status().code(), StatusCode::invalid_argument);
+  WoundSpec spec;
+  spec.outline.resize(513);
+  EXPECT_EQ(buildAddWound(spec).status().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(buildUpdateWound(1, {}).status().code(), StatusCode::invalid_argument);
+  WoundChange both;
+  both.flow_ml_per_s = 1.0;
+  both.pressure_mmhg = 1.0;
+  EXPECT_EQ(buildUpdateWound(1, both).status().code(), StatusCode::invalid_argument);
+  EXPECT_EQ(buildLoadScene(std::string("a\0b", 3)).status().code(), StatusCode::invalid_argument);
+  OutputSpec output;
+  output.attributes = {"velocity", "colour"};
+  EXPECT_EQ(buildOutput(output).status().code(), StatusCode::invalid_argument);
+}
+
+TEST(RequestBuilder, NamesAttributesAsBits) {
+  OutputSpec output{.rate_hz = 30.0};
+  EXPECT_FALSE(buildOutput(output).value()->wire.body._u.output.set_attributes);
+  output.attributes = {"velocity", "density"};
+  const auto built = buildOutput(output);
+  EXPECT_TRUE((*built)->wire.body._u.output.set_attributes);
+  EXPECT_EQ((*built)->wire.body._u.output.attributes, 1U << bleed_v1_SEMANTIC_VELOCITY | 1U << bleed_v1_SEMANTIC_DENSITY);
+}
+
+}  // namespace
+}  // namespace bleedsim::client
