@@ -1,0 +1,38 @@
+// The ranges that values from outside must be in. They exclude nonsense and unit mistakes before anything is computed from them;
+// the world checks what depends on the scene.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace bleedsim::dds {
+
+/// Both ends are allowed.
+struct Limits {
+  double lower;
+  double upper;
+  std::string_view unit;
+};
+
+inline constexpr Limits kPositionLimits{-1e6, 1e6, "m"};
+inline constexpr Limits kDirectionLengthLimits{1e-6, 1e6, "1, its length"};
+inline constexpr Limits kLengthLimits{1e-6, 1e3, "m"};
+inline constexpr Limits kOutlineLimits{-1e3, 1e3, "m"};
+inline constexpr Limits kFlowLimits{0.0, 1e6, "mL/s"};
+inline constexpr Limits kPressureLimits{0.0, 1e6, "mmHg"};
+inline constexpr Limits kDischargeLimits{0.0, 1.0, "1; 0 takes the default"};
+inline constexpr Limits kForceLimits{-1e6, 1e6, "N"};
+inline constexpr Limits kDurationLimits{1e-9, 1e6, "simulated s"};
+inline constexpr Limits kPaceLimits{1e-4, 1e3, "simulated s per s"};
+inline constexpr Limits kFrameRateLimits{0.01, 1e4, "frames per simulated s; 0 keeps the rate"};
+inline constexpr double kDefaultDischargeCoefficient = 0.61;
+
+inline constexpr std::uint32_t kMinPolygonPoints = 3;
+inline constexpr std::uint32_t kMinPolylinePoints = 2;
+inline constexpr std::uint32_t kMaxOutlinePoints = 256;
+inline constexpr std::uint32_t kMaxStepCount = 10'000'000;
+inline constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20;
+inline constexpr std::size_t kMaxReasonBytes = 127;
+
+}  // namespace bleedsim::dds

@@ -1,0 +1,127 @@
+#include <cstring>
+#include <fmt/core.h>
+
+#include "service/dds/decode.h"
+#include "service/dds/value_check.h"
+#include "service/sph/world.h"
+
+namespace bleedsim::dds {
+namespace {
+
+template <class T>
+Result<Action> asAction(Result<T> decoded) {
+  if (!decoded) return decoded.status();
+  return Action{std::move(*decoded)};
+}
+
+Result<PushForce> decodeForce(const bleed_v1_Force& sample) {
+  const Result<sph::Vec3> position = checkVector("force.position", sample.position, kPositionLimits);
+  if (!position) return position.status();
+  if (Status radius = checkNumber("force.radius_m", sample.radius_m, kLengthLimits); !radius) return radius;
+  const Result<sph::Vec3> newtons = checkVector("force.newtons", sample.newtons, kForceLimits);
+  if (!newtons) return newtons.status();
+  if (Status duration = checkNumber("force.duration_s", sample.duration_s, kDurationLimits); !duration) return duration;
+  return PushForce{*position, sample.radius_m, *newtons, sample.duration_s};
+}
+
+Result<StepSession> decodeSteps(const bleed_v1_StepCount& sample) {
+  if (sample.count >= 1 && sample.count <= kMaxStepCount) return StepSession{sample.count};
+  return Status{StatusCode::invalid_argument, fmt::format("step.count is {}: use 1 to {}", sample.count, kMaxStepCount)};
+}
+
+Result<SetPace> decodePace(const bleed_v1_Pace& sample) {
+  switch (sample.mode) {
+    case bleed_v1_PACE_REAL_TIME:
+      return SetPace{{PaceMode::real_time, 1.0}};
+    case bleed_v1_PACE_MAXIMUM:
+      return SetPace{{PaceMode::maximum, 1.0}};
+    case bleed_v1_PACE_FACTOR: {
+      if (Status factor = checkNumber("pace.factor", sample.factor, kPaceLimits); !factor) return factor;
+      return SetPace{{PaceMode::factor, sample.factor}};
+    }
+    default:
+      return Status{StatusCode::invalid_argument,
+                    fmt::format("pace.mode is {}: use 0 (real time), 1 (factor) or 2 (maximum)", sample.mode)};
+  }
+}
+
+Result<SetOutput> decodeOutput(const bleed_v1_Output& sample) {
+  SetOutput out;
+  if (sample.rate_hz != 0.0) {
+    if (Status rate = checkNumber("output.rate_hz", sample.rate_hz, kFrameRateLimits); !rate) return rate;
+    out.frame_rate = sample.rate_hz;
+  }
+  // A boolean from the wire may hold any byte; reading it as bool would be undefined, so its storage is looked at.
+  std::uint8_t set_attributes = 0;
+  std::memcpy(&set_attributes, &sample.set_attributes, sizeof set_attributes);
+  if (set_attributes == 0) return out;
+  constexpr std::uint32_t kVelocity = 1U << bleed_v1_SEMANTIC_VELOCITY;
+  constexpr std::uint32_t kDensity = 1U << bleed_v1_SEMANTIC_DENSITY;
+  constexpr std::uint32_t kViscosity = 1U << bleed_v1_SEMANTIC_VISCOSITY;
+  constexpr std::uint32_t kAlways = 1U << bleed_v1_SEMANTIC_POSITION | 1U << bleed_v1_SEMANTIC_ID;
+  const std::uint32_t unknown = sample.attributes & ~(kVelocity | kDensity | kViscosity | kAlways);
+  if (unknown != 0) {
+    return Status{StatusCode::unsupported,
+                  fmt::format("output.attributes has bits {:#x}, which this version does not publish: use velocity ({:#x}), "
+                              "viscosity ({:#x}), density ({:#x})",
+                              unknown, kVelocity, kViscosity, kDensity)};
+  }
+  std::uint32_t attributes = 0;
+  if ((sample.attributes & kVelocity) != 0) attributes |= sph::kFrameVelocity;
+  if ((sample.attributes & kDensity) != 0) attributes |= sph::kFrameDensity;
+  if ((sample.attributes & kViscosity) != 0) attributes |= sph::kFrameViscosity;
+  out.attributes = attributes;
+  return out;
+}
+
+Result<LoadScene> decodeLoadScene(const bleed_v1_LoadScene& sample) {
+  const std::size_t length = sample.text == nullptr ? 0 : strnlen(sample.text, kMaxSceneBytes + 1);
+  if (length >= 1 && length <= kMaxSceneBytes) return LoadScene{std::string{sample.text, length}};
+  return Status{StatusCode::invalid_argument,
+                length == 0 ? std::string{"load_scene.text is empty: send the text of a scene"}
+                            : fmt::format("load_scene.text is longer than {} bytes: send a smaller scene", kMaxSceneBytes)};
+}
+
+}  // namespace
+
+RequestKey requestKey(const bleed_v1_Request& sample) { return {{transport::toUuid(sample.client), sample.run}, sample.seq}; }
+
+Result<Action> decodeAction(const bleed_v1_RequestBody& body) {
+  switch (body._d) {
+    case bleed_v1_REQUEST_PING:
+      return Action{Ping{body._u.ping.client_stamp_ns}};
+    case bleed_v1_REQUEST_WOUND_ADD: {
+      Result<sph::WoundDescription> wound = decodeWound(body._u.wound_add);
+      if (!wound) return wound.status();
+      return Action{sph::AddWound{std::move(*wound)}};
+    }
+    case bleed_v1_REQUEST_WOUND_UPDATE:
+      return asAction(decodeWoundUpdate(body._u.wound_update));
+    case bleed_v1_REQUEST_WOUND_REMOVE:
+      return Action{sph::RemoveWound{body._u.wound_remove.wound_id}};
+    case bleed_v1_REQUEST_FORCE:
+      return asAction(decodeForce(body._u.force));
+    case bleed_v1_REQUEST_PAUSE:
+      return Action{PauseSession{}};
+    case bleed_v1_REQUEST_RESUME:
+      return Action{ResumeSession{}};
+    case bleed_v1_REQUEST_RESET:
+      return Action{ResetSession{}};
+    case bleed_v1_REQUEST_STEP:
+      return asAction(decodeSteps(body._u.step));
+    case bleed_v1_REQUEST_PACE:
+      return asAction(decodePace(body._u.pace));
+    case bleed_v1_REQUEST_OUTPUT:
+      return asAction(decodeOutput(body._u.output));
+    case bleed_v1_REQUEST_LOAD_SCENE:
+      return asAction(decodeLoadScene(body._u.load_scene));
+    case bleed_v1_REQUEST_SHUTDOWN:
+      return Action{ShutdownSession{}};
+    default:
+      return Status{StatusCode::unsupported,
+                    fmt::format("request {} is not known to protocol {}.{}: use a newer bleedd or an older client", body._d,
+                                bleed_v1_PROTOCOL_MAJOR, bleed_v1_PROTOCOL_MINOR)};
+  }
+}
+
+}  // namespace bleedsim::dds

@@ -1,0 +1,143 @@
+#include "service/dds/session_encoder.h"
+
+#include "service/dds/bounded_text.h"
+#include "service/dds/command_limits.h"
+#include "service/dds/frame_encoder.h"
+#include "service/dds/units.h"
+#include "service/transport/clock.h"
+
+namespace bleedsim::dds {
+namespace {
+
+constexpr std::size_t kMaxEffects = 64;
+
+bleed_v1_Vec3 toWire(const sph::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+}  // namespace
+
+StatusEncoder::StatusEncoder(const SessionIdentity& identity) {
+  transport::copyUuid(identity.uuid, sample_.session);
+  copyText(identity.name, sample_.session_name);
+  copyText(identity.version, sample_.version);
+  copyText(identity.host, sample_.host);
+  sample_.pid = identity.pid;
+  sample_.protocol_minor = bleed_v1_PROTOCOL_MINOR;
+  counters_.reserve(kMaxCounters);
+}
+
+const bleed_v1_Status& StatusEncoder::encode(const StatusReport& report, std::span<const NamedCount> counts) {
+  sample_.state = static_cast<std::uint32_t>(report.state);
+  sample_.epoch = report.epoch;
+  sample_.step = report.step;
+  sample_.sim_time_s = report.sim_time;
+  ++sample_.heartbeat;
+  sample_.pace_mode = static_cast<std::uint32_t>(report.pace.mode);
+  sample_.pace_factor = report.pace.factor;
+  sample_.real_time_factor = report.real_time_factor;
+  sample_.frame_rate_hz = report.frame_rate;
+  sample_.particles = report.particles;
+  sample_.wounds = report.wounds;
+  counters_.clear();
+  for (const NamedCount& count : counts) appendCounter(counters_, count.name, count.value);
+  const auto length = static_cast<std::uint32_t>(counters_.size());
+  sample_.counters = {length, length, counters_.data(), false};
+  copyText(report.text, sample_.text);
+  sample_.monotonic_stamp_ns = transport::monotonicNow();
+  sample_.realtime_stamp_ns = transport::realtimeNow();
+  return sample_;
+}
+
+SceneEncoder::SceneEncoder(const SessionIdentity& identity) {
+  transport::copyUuid(identity.uuid, sample_.session);
+  copyText(identity.name, sample_.session_name);
+  copyText(identity.version, sample_.version);
+  copyText(identity.build_id, sample_.build_id);
+  copyText("m", sample_.length_unit);
+  copyText("right-handed, +z up", sample_.axes);
+  sample_.protocol_major = bleed_v1_PROTOCOL_MAJOR;
+  sample_.protocol_minor = bleed_v1_PROTOCOL_MINOR;
+}
+
+const bleed_v1_Scene& SceneEncoder::encode(const SceneReport& report) {
+  sample_.epoch = report.epoch;
+  copyText(report.simd_target, sample_.simd_target);
+  copyText(report.precision, sample_.precision);
+  copyText(report.name, sample_.scene_name);
+  text_ = report.text;
+  sample_.scene_text = text_.data();
+  sample_.seed = report.seed;
+  effects_.clear();
+  for (const std::string& effect : report.effects) {
+    if (effects_.size() == kMaxEffects) break;
+    copyText(effect, effects_.emplace_back().text);
+  }
+  static_assert(sizeof(EffectName) == sizeof(char[65]));
+  const auto count = static_cast<std::uint32_t>(effects_.size());
+  sample_.effects = {count, count, effects_.empty() ? nullptr : &effects_.front().text, false};
+  copyText(report.frame_id, sample_.frame_id);
+  sample_.lower_bound = toWire(report.domain.lower);
+  sample_.upper_bound = toWire(report.domain.upper);
+  sample_.spacing_m = report.spacing;
+  sample_.support_radius_m = report.support_radius;
+  sample_.particle_volume_ml = mlFromCubicMetres(report.particle_volume);
+  sample_.rest_density_kg_per_m3 = report.rest_density;
+  sample_.speed_of_sound_m_per_s = report.speed_of_sound;
+  sample_.frame_rate_hz = report.frame_rate;
+  sample_.capacity = report.capacity;
+  return sample_;
+}
+
+bleed_v1_Reply encodeReply(const Reply& reply) {
+  bleed_v1_Reply out{};
+  transport::copyUuid(reply.key.origin.client, out.client);
+  out.run = reply.key.origin.run;
+  out.seq = reply.key.seq;
+  out.code = static_cast<std::uint32_t>(reply.code);
+  out.applied_step = reply.applied_step;
+  out.sim_time_s = reply.sim_time;
+  out.epoch = reply.epoch;
+  out.object_id = reply.object_id;
+  copyText(cutText(reply.reason, kMaxReasonBytes), out.reason);
+  out.client_stamp_ns = reply.client_stamp_ns;
+  out.receive_stamp_ns = reply.receive_stamp_ns;
+  out.reply_stamp_ns = reply.reply_stamp_ns;
+  return out;
+}
+
+bleed_v1_Journal encodeJournal(const Uuid& session, const JournalEntry& entry) {
+  bleed_v1_Journal out{};
+  transport::copyUuid(session, out.session);
+  out.epoch = entry.epoch;
+  out.number = entry.number;
+  out.step = entry.step;
+  out.sim_time_s = entry.sim_time;
+  bleed_v1_JournalBody& body = out.body;
+  std::visit(Overloaded{[&body](const Decision& decision) {
+                          body._d = bleed_v1_JOURNAL_DECISION;
+                          copyText(decision.text, body._u.decision);
+                        },
+                        [&body](const RequestTaken& taken) {
+                          body._d = bleed_v1_JOURNAL_REQUEST;
+                          body._u.request.request = taken.request->sample();
+                          body._u.request.object_id = taken.object_id;
+                        },
+                        [&body](const InstrumentTaken& taken) {
+                          body._d = bleed_v1_JOURNAL_INSTRUMENT;
+                          body._u.instrument = taken.sample;
+                        },
+                        [&body](const InstrumentEnded& ended) {
+                          body._d = bleed_v1_JOURNAL_INSTRUMENT_END;
+                          transport::copyUuid(ended.key.client, body._u.instrument_end.client);
+                          body._u.instrument_end.tool = ended.key.tool;
+                          body._u.instrument_end.reason = static_cast<std::uint32_t>(ended.reason);
+                        }},
+             entry.input);
+  return out;
+}
+
+}  // namespace bleedsim::dds

@@ -1,0 +1,69 @@
+// What the session tells about itself on the scene and status topics.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "idl/bleed.h"
+#include "service/dds/request.h"
+
+namespace bleedsim::dds {
+
+struct SessionIdentity {
+  Uuid uuid{};  ///< drawn at each start
+  std::string name;
+  std::string version;
+  std::string build_id;
+  std::string host;
+  std::int32_t pid = 0;
+};
+
+enum class SessionState : std::uint32_t {
+  loading = bleed_v1_STATE_LOADING,
+  running = bleed_v1_STATE_RUNNING,
+  paused = bleed_v1_STATE_PAUSED,
+  faulted = bleed_v1_STATE_FAULTED,
+  stopped = bleed_v1_STATE_STOPPED,
+};
+
+struct NamedCount {
+  std::string_view name;
+  std::uint64_t value = 0;
+};
+
+struct StatusReport {
+  SessionState state = SessionState::loading;
+  std::uint32_t epoch = 0;
+  std::uint64_t step = 0;
+  double sim_time = 0.0;  ///< s
+  Pace pace;
+  double real_time_factor = 0.0;
+  double frame_rate = 0.0;  ///< frames per simulated second
+  std::uint32_t particles = 0;
+  std::uint32_t wounds = 0;
+  std::string text;
+};
+
+/// What late joiners need to read frames. One per epoch.
+struct SceneReport {
+  std::uint32_t epoch = 0;
+  std::string simd_target;
+  std::string precision;
+  std::string name;
+  std::string text;  ///< normalised
+  std::uint64_t seed = 0;
+  std::vector<std::string> effects;
+  std::string frame_id;
+  sph::Domain domain;
+  double spacing = 0.0;          ///< m
+  double support_radius = 0.0;   ///< m
+  double particle_volume = 0.0;  ///< m^3
+  double rest_density = 0.0;     ///< kg/m^3
+  double speed_of_sound = 0.0;   ///< m/s
+  double frame_rate = 0.0;       ///< frames per simulated second
+  std::uint32_t capacity = 0;
+};
+
+}  // namespace bleedsim::dds

@@ -1,0 +1,45 @@
+#include "service/dds/value_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+namespace bleedsim::dds {
+
+Status checkNumber(std::string_view field, double value, const Limits& limits) {
+  if (!std::isfinite(value)) {
+    return {StatusCode::invalid_argument,
+            fmt::format("{} is {}: use a finite number, {:g} to {:g} {}", field, value, limits.lower, limits.upper, limits.unit)};
+  }
+  if (value >= limits.lower && value <= limits.upper) return {};
+  return {StatusCode::invalid_argument,
+          fmt::format("{} is {:g}: use {:g} to {:g} {}", field, value, limits.lower, limits.upper, limits.unit)};
+}
+
+Result<sph::Vec3> checkVector(std::string_view field, const bleed_v1_Vec3& value, const Limits& limits) {
+  const double components[] = {value.x, value.y, value.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (Status checked = checkNumber(fmt::format("{}.{}", field, "xyz"[axis]), components[axis], limits); !checked)
+      return checked;
+  }
+  return sph::Vec3{value.x, value.y, value.z};
+}
+
+Result<sph::Vec3> checkDirection(std::string_view field, const bleed_v1_Vec3& value) {
+  Result<sph::Vec3> vector = checkVector(field, value, kPositionLimits);
+  if (!vector) return vector;
+  const double length = vector->norm();
+  if (Status checked = checkNumber(field, length, kDirectionLengthLimits); !checked) return checked;
+  return sph::Vec3{*vector / length};
+}
+
+Status checkLabel(std::string_view field, std::string_view text) {
+  const bool printable = std::none_of(text.begin(), text.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20U || byte == 0x7FU;
+  });
+  if (printable) return {};
+  return {StatusCode::invalid_argument, fmt::format("{} holds a control character: use printable text", field)};
+}
+
+}  // namespace bleedsim::dds
