@@ -1,0 +1,32 @@
+// Everything that passes between the threads of the service. Each part is bounded and may be used by its two sides at once.
+#pragma once
+
+#include <cstddef>
+
+#include "service/daemon/bounded_queue.h"
+#include "service/daemon/command_queue.h"
+#include "service/daemon/frame_mailbox.h"
+#include "service/daemon/journal.h"
+#include "service/daemon/reply_cache.h"
+#include "service/daemon/service_counters.h"
+#include "service/daemon/status_board.h"
+#include "service/daemon/wakeup.h"
+#include "service/dds/reply.h"
+
+namespace bleedsim::daemon {
+
+struct Channels {
+  /// More than the command queue holds, so that a full queue can be answered at once.
+  static constexpr std::size_t kReplyCapacity = 2 * CommandQueue::kCapacity;
+
+  CommandQueue commands;                             ///< intake -> simulation
+  BoundedQueue<dds::Reply> replies{kReplyCapacity};  ///< simulation, intake -> publisher
+  ReplyCache reply_cache;                            ///< intake asks, publisher remembers
+  Journal journal;                                   ///< simulation -> publisher
+  FrameMailbox frames;                               ///< simulation -> publisher
+  StatusBoard board;                                 ///< simulation -> publisher, intake
+  ServiceCounters counters;
+  Wakeup publisher;  ///< the publisher waits here
+};
+
+}  // namespace bleedsim::daemon

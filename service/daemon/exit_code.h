@@ -1,0 +1,13 @@
+// How bleedd ends.
+#pragma once
+
+namespace bleedsim::daemon {
+
+enum class ExitCode : int {
+  ok = 0,
+  failure = 1,     ///< interface, middleware, system
+  usage = 2,       ///< command line or scene
+  name_taken = 3,  ///< another daemon runs the session
+};
+
+}  // namespace bleedsim::daemon

@@ -1,0 +1,48 @@
+// The tools that push on the fluid: the newest sample of each, and when it ends.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "service/daemon/command_queue.h"
+#include "service/dds/frame_snapshot.h"
+#include "service/dds/journal_entry.h"
+
+namespace bleedsim::daemon {
+
+struct Tool {
+  dds::InstrumentSample sample;
+  TimePoint received;
+  sph::ForceKey force_key = 0;
+  bool pending = true;                            ///< the newest sample was not applied yet
+  std::optional<dds::InstrumentApplied> applied;  ///< the newest sample that was
+};
+
+/// At most dds::kMaxInstruments tools. Belongs to the simulation thread; allocates nothing after construction.
+class InstrumentTable {
+ public:
+  InstrumentTable();
+
+  enum class Update { taken, full, not_newer };
+  Update update(const InstrumentInput& input);
+
+  std::span<Tool> tools() { return tools_; }
+  std::span<const Tool> tools() const { return tools_; }
+  void remove(std::size_t index);
+  void clear() { tools_.clear(); }
+
+  /// When the first tool falls silent for longer than `expiry`; nothing without tools.
+  std::optional<TimePoint> nextExpiry(Clock::duration expiry) const;
+
+  /// The newest sample of each client that a step up to `step` has used. Returns how many were written.
+  std::size_t report(std::span<dds::InstrumentApplied> out, std::uint64_t step) const;
+
+ private:
+  std::vector<Tool> tools_;
+  sph::ForceKey next_key_;
+};
+
+}  // namespace bleedsim::daemon

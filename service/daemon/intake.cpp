@@ -1,0 +1,155 @@
+#include "service/daemon/intake.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include "service/dds/decode.h"
+#include "service/transport/clock.h"
+
+namespace bleedsim::daemon {
+namespace {
+
+enum Token : unsigned { kRequests, kInstruments, kInstrumentWriters, kStop };
+
+}  // namespace
+
+Result<std::unique_ptr<Intake>> Intake::create(const transport::Participant& participant, const std::string& session,
+                                               Channels& channels) {
+  auto requests = transport::Reader<bleed_v1_Request>::create(participant, session);
+  if (!requests) return requests.status();
+  auto instruments = transport::Reader<bleed_v1_Instrument>::create(participant, session);
+  if (!instruments) return instruments.status();
+  Result<transport::GuardCondition> stop = transport::GuardCondition::create(participant);
+  if (!stop) return stop.status();
+  Result<transport::WaitSet> wait_set = transport::WaitSet::create(participant);
+  if (!wait_set) return wait_set.status();
+  if (Status attached = wait_set->attach(*requests, kRequests); !attached) return attached;
+  if (Status attached = wait_set->attach(*instruments, kInstruments); !attached) return attached;
+  if (Status attached = wait_set->attachMatches(*instruments, kInstrumentWriters); !attached) return attached;
+  if (Status attached = wait_set->attach(*stop, kStop); !attached) return attached;
+  Ends ends{std::move(*requests), std::move(*instruments), std::move(*stop), std::move(*wait_set)};
+  return std::unique_ptr<Intake>{new Intake{std::move(ends), channels}};
+}
+
+void Intake::requestStop() { ends_.stop.raise(); }
+
+Status Intake::run() {
+  for (;;) {
+    const Result<transport::WakeUp> woken = ends_.wait_set.wait(std::chrono::nanoseconds{-1});
+    if (!woken) return woken.status();
+    if (woken->has(kStop)) return {};
+    if (Status drained = drain(); !drained) return drained;
+    if (woken->has(kInstrumentWriters)) noticeLostWriters();
+  }
+}
+
+Status Intake::drain() {
+  const Result<std::size_t> requests = ends_.requests.take([this](const transport::Sample<bleed_v1_Request>& sample) {
+    if (sample.data != nullptr) takeRequest(*sample.data);
+  });
+  if (!requests) return requests.status();
+  const Result<std::size_t> instruments = ends_.instruments.take([this](const transport::Sample<bleed_v1_Instrument>& sample) {
+    if (sample.data != nullptr) takeInstrument(*sample.data, sample.publication);
+  });
+  return instruments ? Status{} : instruments.status();
+}
+
+void Intake::noticeLostWriters() {
+  std::vector<transport::PublicationHandle> alive = ends_.instruments.matchedPublications();
+  for (const transport::PublicationHandle writer : writers_) {
+    if (std::find(alive.begin(), alive.end(), writer) != alive.end()) continue;
+    // Without room the tools of that writer end by their expiry.
+    static_cast<void>(channels_.commands.tryPush(WriterLost{writer}));
+  }
+  writers_ = std::move(alive);
+}
+
+void Intake::takeRequest(const bleed_v1_Request& sample) {
+  const std::int64_t received = transport::monotonicNow();
+  channels_.counters.add(ServiceCounter::requests);
+  const dds::RequestKey key = dds::requestKey(sample);
+  ReplyCache::Answer known = channels_.reply_cache.begin(key);
+  switch (known.known) {
+    case ReplyCache::Known::fresh:
+      break;
+    case ReplyCache::Known::in_work:
+      channels_.counters.add(ServiceCounter::requests_resent);
+      return;
+    case ReplyCache::Known::answered:
+      channels_.counters.add(ServiceCounter::requests_resent);
+      send(std::move(*known.reply));
+      return;
+    case ReplyCache::Known::stale: {
+      channels_.counters.add(ServiceCounter::requests_stale);
+      dds::Reply reply = replyTo(key, received);
+      reply.code = dds::ReplyCode::stale;
+      reply.reason = "this request is older than the replies that are kept: give each request a higher number";
+      send(std::move(reply));
+      return;
+    }
+  }
+  Result<dds::Action> action = dds::decodeAction(sample.body);
+  if (!action) {
+    refuse(replyTo(key, received), action.status());
+    return;
+  }
+  // A ping changes nothing, so it does not wait for a step.
+  if (const auto* ping = std::get_if<dds::Ping>(&*action)) {
+    dds::Reply reply = replyTo(key, received);
+    reply.client_stamp_ns = ping->client_stamp_ns;
+    send(std::move(reply));
+    return;
+  }
+  dds::DecodedRequest request{key, std::move(*action), received, std::make_unique<dds::RequestCopy>(sample)};
+  if (channels_.commands.tryPush(std::move(request))) return;
+  channels_.counters.add(ServiceCounter::requests_busy);
+  dds::Reply reply = replyTo(key, received);
+  reply.code = dds::ReplyCode::busy;
+  reply.reason = "too many requests are waiting: send it again";
+  send(std::move(reply));
+}
+
+void Intake::takeInstrument(const bleed_v1_Instrument& sample, transport::PublicationHandle writer) {
+  channels_.counters.add(ServiceCounter::instrument_samples);
+  Result<dds::InstrumentSample> decoded = dds::decodeInstrument(sample);
+  if (!decoded) {
+    channels_.counters.add(ServiceCounter::instruments_malformed);
+    return;
+  }
+  decoded->writer = writer;
+  if (!channels_.commands.tryPush(InstrumentInput{std::move(*decoded), Clock::now()})) {
+    channels_.counters.add(ServiceCounter::instruments_dropped);
+  }
+}
+
+dds::Reply Intake::replyTo(const dds::RequestKey& key, std::int64_t received) const {
+  const dds::StatusReport now = channels_.board.read().report;
+  dds::Reply reply;
+  reply.key = key;
+  reply.applied_step = now.step + 1;
+  reply.sim_time = now.sim_time;
+  reply.epoch = now.epoch;
+  reply.receive_stamp_ns = received;
+  return reply;
+}
+
+void Intake::refuse(dds::Reply reply, const Status& why) {
+  channels_.counters.add(ServiceCounter::requests_refused);
+  reply.code = dds::replyCode(why.code());
+  reply.reason = why.message();
+  send(std::move(reply));
+}
+
+void Intake::send(dds::Reply reply) {
+  const dds::RequestKey key = reply.key;
+  const bool first_time = reply.reply_stamp_ns == 0;
+  if (!channels_.replies.tryPush(std::move(reply))) {
+    channels_.counters.add(ServiceCounter::replies_lost);
+    // Nothing was done yet, so the request may come again as if it were new.
+    if (first_time) channels_.reply_cache.forget(key);
+  }
+  channels_.publisher.notify();
+}
+
+}  // namespace bleedsim::daemon

@@ -1,0 +1,49 @@
+// The intake thread: requests and instrument samples from outside, checked, on their way to the simulation thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "service/daemon/channels.h"
+#include "service/transport/reader.h"
+#include "service/transport/wait_set.h"
+
+namespace bleedsim::daemon {
+
+class Intake {
+ public:
+  static Result<std::unique_ptr<Intake>> create(const transport::Participant& participant, const std::string& session,
+                                                Channels& channels);
+
+  /// Takes samples until requestStop(). A status other than ok: the middleware failed.
+  Status run();
+  /// From any thread.
+  void requestStop();
+
+  /// One sample each; run() calls them, tests may do so without any middleware thread.
+  void takeRequest(const bleed_v1_Request& sample);
+  void takeInstrument(const bleed_v1_Instrument& sample, transport::PublicationHandle writer);
+
+ private:
+  struct Ends {
+    transport::Reader<bleed_v1_Request> requests;
+    transport::Reader<bleed_v1_Instrument> instruments;
+    transport::GuardCondition stop;
+    transport::WaitSet wait_set;
+  };
+
+  Intake(Ends ends, Channels& channels) : ends_{std::move(ends)}, channels_{channels} {}
+
+  Status drain();
+  void noticeLostWriters();
+  dds::Reply replyTo(const dds::RequestKey& key, std::int64_t received) const;
+  void refuse(dds::Reply reply, const Status& why);
+  void send(dds::Reply reply);
+
+  Ends ends_;
+  Channels& channels_;
+  std::vector<transport::PublicationHandle> writers_;
+};
+
+}  // namespace bleedsim::daemon

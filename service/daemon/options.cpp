@@ -1,0 +1,105 @@
+#include "service/daemon/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/core.h>
+#include <iostream>
+#include <thread>
+
+#include "service/daemon/build_info.h"
+#include "service/dds/command_limits.h"
+#include "service/transport/domain.h"
+#include "service/transport/names.h"
+
+namespace bleedsim::daemon {
+namespace {
+
+constexpr int kMaxThreads = 64;
+constexpr int kMaxDefaultThreads = 8;
+constexpr double kMaxDuration = 1e9;
+
+constexpr const char* kFooter =
+    "Exit codes: 0 ended as asked (also by SIGINT or SIGTERM), 1 failure of the network or the system, 2 wrong command line or\n"
+    "scene, 3 another bleedd runs a session of this name.\n"
+    "Without --interface only this host can take part. With CYCLONEDDS_URI set, that configuration is used as it is.";
+
+int defaultThreads() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxDefaultThreads); }
+
+/// What CLI11 expects of a validator: the empty text, or what is wrong.
+std::string textOf(const Status& status) { return status.message(); }
+
+}  // namespace
+
+Result<dds::Pace> parsePace(const std::string& text) {
+  if (text == "realtime") return dds::Pace{dds::PaceMode::real_time, 1.0};
+  if (text == "max") return dds::Pace{dds::PaceMode::maximum, 1.0};
+  char* end = nullptr;
+  const double factor = std::strtod(text.c_str(), &end);
+  const bool number = end != text.c_str() && *end == '\0';
+  if (number && factor >= dds::kPaceLimits.lower && factor <= dds::kPaceLimits.upper) {
+    return dds::Pace{dds::PaceMode::factor, factor};
+  }
+  return Status{StatusCode::invalid_argument, fmt::format("pace '{}': use realtime, max or a factor from {:g} to {:g}", text,
+                                                          dds::kPaceLimits.lower, dds::kPaceLimits.upper)};
+}
+
+std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) {
+  Options options;
+  options.session = transport::kDefaultSession;
+  options.world.threads = defaultThreads();
+  std::string scene;
+  std::string pace = "realtime";
+  std::string simd = "auto";
+  double frame_rate = 0.0;
+  double duration = 0.0;
+
+  CLI::App app{"bleedd simulates a bleeding scene and publishes it over DDS", "bleedd"};
+  app.footer(kFooter);
+  app.set_version_flag("--version", buildId(), "Print version and build, then exit");
+  app.add_option("--scene", scene, "Scene to run, protobuf text")->type_name("FILE");
+  app.add_option("--session", options.session, "Name that clients find the session by, also its partition")
+      ->check([](const std::string& name) { return textOf(transport::checkSessionName(name)); })
+      ->type_name("NAME")
+      ->capture_default_str();
+  app.add_option("--domain", options.domain, "DDS domain")
+      ->check(CLI::Range(std::uint32_t{0}, transport::kMaxDomain))
+      ->capture_default_str();
+  app.add_option("--interface", options.interface, "Network interface to publish on; without it, loopback only")
+      ->type_name("NAME");
+  app.add_option("--pace", pace, "realtime, max, or simulated seconds per second")
+      ->check([](const std::string& text) { return textOf(parsePace(text).status()); })
+      ->type_name("PACE")
+      ->capture_default_str();
+  auto* rate_option = app.add_option("--frame-rate", frame_rate, "Frames per simulated second; without it, the scene's")
+                          ->check(CLI::Range(dds::kFrameRateLimits.lower, dds::kFrameRateLimits.upper))
+                          ->type_name("HZ");
+  app.add_option("--threads", options.world.threads, "Threads of the solver; results do not depend on it")
+      ->check(CLI::Range(1, kMaxThreads))
+      ->capture_default_str();
+  app.add_option("--simd", simd, "Instruction set of the solver: auto, scalar, avx2 or avx512")
+      ->check([](const std::string& name) { return textOf(sph::parseSimdTarget(name).status()); })
+      ->type_name("TARGET")
+      ->capture_default_str();
+  auto* duration_option = app.add_option("--duration", duration, "End after this many simulated seconds")
+                              ->check(CLI::Range(0.0, kMaxDuration))
+                              ->type_name("SECONDS");
+  app.add_flag("--check", options.check, "Check the scene, build its world and exit");
+  app.add_flag("--list-effects", options.list_effects, "List the effects of this build; with a scene, also their state in it");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& ended) { return app.exit(ended, std::cout, std::cerr) == 0 ? ExitCode::ok : ExitCode::usage; }
+  if (!scene.empty()) options.scene = scene;
+  if (!options.scene && !options.list_effects) {
+    std::cerr << "bleedd: which scene? Give --scene FILE, e.g. one of config/scenes; see bleedd --help\n";
+    return ExitCode::usage;
+  }
+  if (rate_option->count() > 0) options.frame_rate = frame_rate;
+  if (duration_option->count() > 0) options.duration = duration;
+  options.pace = *parsePace(pace);
+  options.world.simd = *sph::parseSimdTarget(simd);
+  return options;
+}
+
+}  // namespace bleedsim::daemon

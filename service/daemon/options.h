@@ -1,0 +1,34 @@
+// The command line of bleedd.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "service/daemon/exit_code.h"
+#include "service/dds/request.h"
+#include "service/sph/world.h"
+
+namespace bleedsim::daemon {
+
+struct Options {
+  std::optional<std::string> scene;  ///< path
+  std::string session;
+  std::uint32_t domain = 0;
+  std::string interface;  ///< empty: loopback
+  dds::Pace pace;
+  std::optional<double> frame_rate;  ///< frames per simulated second
+  std::optional<double> duration;    ///< simulated s
+  sph::WorldOptions world;
+  bool check = false;
+  bool list_effects = false;
+};
+
+/// The options, or the code to exit with once help, version or a usage error was printed.
+std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv);
+
+/// "realtime", "max" or a factor.
+Result<dds::Pace> parsePace(const std::string& text);
+
+}  // namespace bleedsim::daemon

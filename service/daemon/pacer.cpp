@@ -1,0 +1,54 @@
+#include "service/daemon/pacer.h"
+
+#include <algorithm>
+
+namespace bleedsim::daemon {
+namespace {
+
+double seconds(Clock::duration duration) { return std::chrono::duration<double>{duration}.count(); }
+
+}  // namespace
+
+double Pacer::wallElapsed(TimePoint now) const { return seconds((pause_ ? pause_->wall : now) - wall_start_); }
+double Pacer::simElapsed(double sim_time) const { return (pause_ ? pause_->sim_time : sim_time) - sim_start_; }
+
+void Pacer::restart(TimePoint now) {
+  wall_start_ = now;
+  sim_start_ = 0.0;
+  owed_ = 0.0;
+  if (pause_) pause_ = Pause{now, 0.0};
+}
+
+void Pacer::setPace(dds::Pace pace, TimePoint now, double sim_time) {
+  const double late = behind(now, sim_time) * pace_.factor;
+  owed_ = pace.mode == dds::PaceMode::maximum ? 0.0 : late;
+  pace_ = pace;
+  wall_start_ = now;
+  sim_start_ = sim_time;
+  if (pause_) pause_ = Pause{now, sim_time};
+}
+
+void Pacer::pause(TimePoint now, double sim_time) {
+  if (!pause_) pause_ = Pause{now, sim_time};
+}
+
+void Pacer::resume(TimePoint now, double sim_time) {
+  if (!pause_) return;
+  wall_start_ += now - pause_->wall;
+  sim_start_ += sim_time - pause_->sim_time;
+  pause_.reset();
+}
+
+double Pacer::secondsAhead(TimePoint now, double sim_time) const {
+  if (pace_.mode == dds::PaceMode::maximum) return 0.0;
+  return (simElapsed(sim_time) - owed_) / pace_.factor - wallElapsed(now);
+}
+
+double Pacer::behind(TimePoint now, double sim_time) const { return std::max(0.0, -secondsAhead(now, sim_time)); }
+
+double Pacer::realTimeFactor(TimePoint now, double sim_time) const {
+  const double wall = wallElapsed(now);
+  return wall > 0.0 ? simElapsed(sim_time) / wall : 0.0;
+}
+
+}  // namespace bleedsim::daemon

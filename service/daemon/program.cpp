@@ -1,0 +1,93 @@
+#include "service/daemon/program.h"
+
+#include <spdlog/spdlog.h>
+#include <utility>
+
+#include "service/daemon/inspect.h"
+#include "service/daemon/service.h"
+#include "service/transport/interfaces.h"
+
+namespace bleedsim::daemon {
+namespace {
+
+// Positions and ids; a subscriber's kernel buffer should hold two frames.
+constexpr std::size_t kFrameBytesPerParticle = 16;
+
+void warnOfSmallBuffer(std::uint32_t capacity) {
+  const std::size_t limit = transport::receiveBufferLimit();
+  const std::size_t wanted = 2 * kFrameBytesPerParticle * capacity;
+  if (limit == 0 || limit >= wanted) return;
+  spdlog::warn(
+      "the kernel's receive buffers hold {} kB, two full frames of this scene are {} kB: frames may be lost at a "
+      "subscriber. Remedy: sysctl -w net.core.rmem_max={} (config/dds/60-bleedsim.conf)",
+      limit / 1000, wanted / 1000, std::max<std::size_t>(wanted, 4'194'304));
+}
+
+void logStart(const ServiceOptions& options, const Service& service, const scene::SceneDescription& scene,
+              std::string_view simd) {
+  const dds::SessionIdentity& identity = service.identity();
+  spdlog::info("bleedd {} runs session '{}' ({}) in domain {} on {}", identity.version, identity.name,
+               transport::toString(identity.uuid), options.participant.domain,
+               options.participant.interface.empty() ? "loopback" : options.participant.interface);
+  spdlog::info("scene '{}', capacity {} particles, SIMD target {}", scene.name, scene.world.capacity, simd);
+}
+
+ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory factory, SignalWatch& signals) {
+  const std::shared_ptr<const scene::SceneDescription> scene = loaded.scene;
+  const std::string_view simd = sph::simdTargetName(loaded.world->simdTarget());
+  ServiceOptions service_options;
+  service_options.participant.domain = options.domain;
+  service_options.participant.interface = options.interface;
+  service_options.session = options.session;
+  service_options.simulation = {options.pace, options.frame_rate, options.duration};
+  Result<std::unique_ptr<Service>> service = Service::create(service_options, std::move(loaded), std::move(factory));
+  if (!service) {
+    spdlog::error("{}", service.status().message());
+    return service.status().code() == StatusCode::unavailable ? ExitCode::name_taken : ExitCode::failure;
+  }
+  warnOfSmallBuffer(scene->world.capacity);
+  logStart(service_options, **service, *scene, simd);
+  signals.start([&service] {
+    spdlog::info("asked to end");
+    (*service)->requestStop();
+  });
+  const Status ended = (*service)->run();
+  signals.stop();
+  if (ended) {
+    spdlog::info("ended");
+    return ExitCode::ok;
+  }
+  spdlog::error("{}", ended.message());
+  return ended.code() == StatusCode::unavailable ? ExitCode::name_taken : ExitCode::failure;
+}
+
+}  // namespace
+
+ExitCode runProgram(const Options& options, SignalWatch& signals) {
+  if (!options.scene) {
+    printEffects(nullptr);
+    return ExitCode::ok;
+  }
+  Result<scene::SceneDescription> parsed = scene::loadScene(*options.scene);
+  if (!parsed) {
+    spdlog::error("{}", parsed.status().message());
+    return ExitCode::usage;
+  }
+  if (options.list_effects) {
+    printEffects(&*parsed);
+    return ExitCode::ok;
+  }
+  const SceneFactory factory = worldFactory(options.world);
+  Result<LoadedScene> loaded = factory({{}, std::make_shared<const scene::SceneDescription>(std::move(*parsed))});
+  if (!loaded) {
+    spdlog::error("{}: {}", *options.scene, loaded.status().message());
+    return ExitCode::usage;
+  }
+  if (options.check) {
+    printWorld(*loaded);
+    return ExitCode::ok;
+  }
+  return runService(options, std::move(*loaded), factory, signals);
+}
+
+}  // namespace bleedsim::daemon

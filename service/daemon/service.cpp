@@ -1,0 +1,72 @@
+#include "service/daemon/service.h"
+
+#include <array>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+#include "service/daemon/build_info.h"
+
+namespace bleedsim::daemon {
+namespace {
+
+// Discovery takes milliseconds on a healthy network; two daemons that start within the window settle it by their status.
+constexpr std::chrono::milliseconds kListenWindow{400};
+
+std::string hostName() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? std::string{name.data()} : std::string{"unknown"};
+}
+
+}  // namespace
+
+dds::SessionIdentity makeIdentity(const std::string& session) {
+  return {transport::drawUuid(), session, buildVersion(), buildId(), hostName(), getpid()};
+}
+
+Result<std::unique_ptr<Service>> Service::create(const ServiceOptions& options, LoadedScene first, SceneFactory factory) {
+  if (Status name = transport::checkSessionName(options.session); !name) return name;
+  const Result<transport::Participant> participant = transport::Participant::create(options.participant);
+  if (!participant) return Status{StatusCode::io, participant.status().message()};
+  std::unique_ptr<Service> service{new Service{makeIdentity(options.session)}};
+
+  Result<SessionGuard> guard = SessionGuard::create(*participant, service->identity_);
+  if (!guard) return Status{StatusCode::io, guard.status().message()};
+  const Result<std::optional<Rival>> rival = guard->listen(kListenWindow);
+  if (!rival) return Status{StatusCode::io, rival.status().message()};
+  if (*rival) return nameTaken(options.session, **rival);
+
+  auto publisher = Publisher::create(*participant, service->identity_, service->channels_, std::move(*guard));
+  if (!publisher) return Status{StatusCode::io, publisher.status().message()};
+  auto intake = Intake::create(*participant, options.session, service->channels_);
+  if (!intake) return Status{StatusCode::io, intake.status().message()};
+  service->publisher_ = std::move(*publisher);
+  service->intake_ = std::move(*intake);
+  service->simulation_ =
+      std::make_unique<Simulation>(options.simulation, std::move(first), std::move(factory), service->channels_, Clock::now());
+  return service;
+}
+
+void Service::endWith(const Status& why) {
+  {
+    const std::lock_guard lock{mutex_};
+    if (outcome_) outcome_ = why;
+  }
+  requestStop();
+}
+
+Status Service::run() {
+  std::thread publishing{[this] { publisher_->run([this](const Rival& rival) { endWith(nameTaken(identity_.name, rival)); }); }};
+  std::thread taking{[this] {
+    if (const Status ended = intake_->run(); !ended) endWith({StatusCode::io, ended.message()});
+  }};
+  simulation_->run();
+  intake_->requestStop();
+  taking.join();
+  publisher_->requestStop();
+  publishing.join();
+  const std::lock_guard lock{mutex_};
+  return outcome_;
+}
+
+}  // namespace bleedsim::daemon

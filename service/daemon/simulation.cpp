@@ -1,0 +1,210 @@
+#include "service/daemon/simulation.h"
+
+#include <algorithm>
+#include <fmt/core.h>
+#include <limits>
+#include <utility>
+
+#include "service/transport/clock.h"
+
+namespace bleedsim::daemon {
+namespace {
+
+// Waiting for less than this costs more than it gives: a state may be up to this early.
+constexpr double kWaitGrainSeconds = 0.5e-3;
+// Inputs that found no room for their reply are looked at again after this time.
+constexpr std::chrono::milliseconds kRetry{5};
+
+Clock::duration wallSeconds(double value) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{value});
+}
+
+dds::SceneReport describe(const scene::SceneDescription& scene, const sph::World& world, std::uint32_t epoch, double frame_rate) {
+  dds::SceneReport report;
+  report.epoch = epoch;
+  report.simd_target = sph::simdTargetName(world.simdTarget());
+  report.precision = "float32";
+  report.name = scene.name;
+  report.text = scene.normalized_text;
+  report.seed = scene.world.seed;
+  report.effects = scene.effects;
+  report.frame_id = scene.frame_id;
+  report.domain = scene.world.domain;
+  report.spacing = scene.world.spacing;
+  report.support_radius = scene.world.supportRadius();
+  report.particle_volume = scene.world.particleVolume();
+  report.rest_density = scene.world.rest_density;
+  report.speed_of_sound = world.speedOfSound();
+  report.frame_rate = frame_rate;
+  report.capacity = scene.world.capacity;
+  return report;
+}
+
+}  // namespace
+
+Simulation::Simulation(const SimulationOptions& options, LoadedScene first, SceneFactory factory, Channels& channels,
+                       TimePoint now)
+    : options_{options},
+      channels_{channels},
+      loader_{std::move(factory), channels.commands.wakeup()},
+      pacer_{options.pace, now},
+      frame_clock_{options.frame_rate.value_or(first.scene->frame_rate)} {
+  attributes_ = first.scene->attributes;
+  install(std::move(first), now);
+}
+
+void Simulation::install(LoadedScene loaded, TimePoint now) {
+  const bool other_scene = loaded.scene != scene_;
+  world_ = std::move(loaded.world);
+  scene_ = std::move(loaded.scene);
+  ++epoch_;
+  if (other_scene) {
+    frame_clock_ = FrameClock{options_.frame_rate.value_or(scene_->frame_rate)};
+    attributes_ = scene_->attributes;
+  }
+  faulted_ = false;
+  fault_text_.clear();
+  steps_left_ = 0;
+  steps_in_frame_ = 0;
+  stage_seconds_at_frame_ = {};
+  instruments_.clear();
+  pacer_.restart(now);
+  frame_clock_.restart();
+  channels_.journal.beginEpoch(epoch_);
+  channels_.frames.renew(std::move(loaded.frames));
+  channels_.board.postScene(std::make_shared<const dds::SceneReport>(describe(*scene_, *world_, epoch_, frame_clock_.rate())));
+  frame_clock_.take(world_->time());
+  publishFrame(now);
+  showState();
+}
+
+dds::SessionState Simulation::state() const {
+  if (pending_load_) return dds::SessionState::loading;
+  if (faulted_) return dds::SessionState::faulted;
+  return pacer_.paused() ? dds::SessionState::paused : dds::SessionState::running;
+}
+
+void Simulation::showState() {
+  channels_.board.change([this](dds::StatusReport& report) {
+    report.state = state();
+    report.epoch = epoch_;
+    report.step = world_->stepCount();
+    report.sim_time = world_->time();
+    report.pace = pacer_.pace();
+    report.frame_rate = frame_clock_.rate();
+    report.particles = world_->particleCount();
+    report.wounds = static_cast<std::uint32_t>(world_->wounds().size());
+    report.text = fault_text_;
+  });
+  channels_.publisher.notify();
+}
+
+Simulation::Next Simulation::tick(TimePoint now) {
+  finishLoading(now);
+  drainInputs(now);
+  applyInstruments();
+  endSilentInstruments(now);
+  if (ended_ || stop_requested_.load(std::memory_order_relaxed)) return {Next::Kind::stop, {}};
+
+  const dds::SessionState current = state();
+  const bool stepping = current == dds::SessionState::paused && steps_left_ > 0;
+  if (current == dds::SessionState::running || stepping) {
+    const double ahead = stepping ? 0.0 : pacer_.secondsAhead(now, world_->time());
+    if (ahead <= kWaitGrainSeconds) {
+      advance(now);
+      return {ended_ ? Next::Kind::stop : Next::Kind::again, {}};
+    }
+    const TimePoint due = now + wallSeconds(ahead);
+    return {Next::Kind::wait, std::min(due, nextExpiry().value_or(due))};
+  }
+  std::optional<TimePoint> until = nextExpiry();
+  if (!channels_.commands.empty()) until = std::min(until.value_or(now + kRetry), now + kRetry);
+  return {Next::Kind::wait, until};
+}
+
+void Simulation::run() {
+  for (;;) {
+    const Next next = tick(Clock::now());
+    if (next.kind == Next::Kind::stop) return;
+    if (next.kind == Next::Kind::wait) channels_.commands.wakeup().wait(next.until);
+  }
+}
+
+void Simulation::requestStop() {
+  stop_requested_.store(true, std::memory_order_relaxed);
+  channels_.commands.wakeup().notify();
+}
+
+void Simulation::advance(TimePoint now) {
+  if (const Status stepped = world_->step(std::numeric_limits<double>::infinity()); !stepped) {
+    fault(stepped.message(), now);
+    return;
+  }
+  ++steps_in_frame_;
+  const bool in_pause = pacer_.paused();
+  const double time = world_->time();
+  channels_.board.progress(world_->stepCount(), time, world_->particleCount(), pacer_.realTimeFactor(now, time));
+  if (in_pause) --steps_left_;
+  const bool frame_due = frame_clock_.take(time);
+  ended_ = options_.duration.has_value() && time >= *options_.duration;
+  // Whoever steps by hand, or ends the session at a time, wants to see the state it ends in.
+  if (frame_due || (in_pause && steps_left_ == 0) || ended_) publishFrame(now);
+}
+
+void Simulation::publishFrame(TimePoint now) {
+  dds::FrameSnapshot& snapshot = *channels_.frames.back();
+  world_->copyFrame(snapshot.frame, attributes_);
+  world_->collectStats(snapshot.stats);
+  const std::span<const sph::WoundState> wounds = world_->wounds();
+  snapshot.wounds.assign(wounds.begin(),
+                         wounds.begin() + static_cast<std::ptrdiff_t>(std::min(wounds.size(), dds::kMaxWoundLedgers)));
+  snapshot.state_hash = world_->stateHash();
+  snapshot.epoch = epoch_;
+  snapshot.steps_in_frame = steps_in_frame_;
+  for (std::size_t i = 0; i < stage_seconds_at_frame_.size(); ++i) {
+    const double spent = snapshot.stats.stage_seconds[i] - stage_seconds_at_frame_[i];
+    snapshot.stage_microseconds[i] = steps_in_frame_ > 0 ? spent * 1e6 / steps_in_frame_ : 0.0;
+  }
+  stage_seconds_at_frame_ = snapshot.stats.stage_seconds;
+  snapshot.instrument_count = instruments_.report(snapshot.instruments, world_->stepCount());
+  snapshot.real_time_factor = pacer_.realTimeFactor(now, world_->time());
+  snapshot.behind = pacer_.behind(now, world_->time());
+  snapshot.monotonic_stamp_ns = transport::monotonicNow();
+  snapshot.realtime_stamp_ns = transport::realtimeNow();
+  steps_in_frame_ = 0;
+  channels_.frames.store();
+  channels_.publisher.notify();
+}
+
+void Simulation::fault(const std::string& reason, TimePoint now) {
+  faulted_ = true;
+  steps_left_ = 0;
+  pacer_.pause(now, world_->time());
+  fault_text_ = fmt::format("the solver stopped: {}; reset the session or load another scene", reason);
+  record(dds::Decision{fault_text_});
+  publishFrame(now);
+  showState();
+}
+
+void Simulation::finishLoading(TimePoint now) {
+  if (!pending_load_) return;
+  std::optional<Result<LoadedScene>> finished = loader_.takeFinished();
+  if (!finished) return;
+  PendingLoad load = std::move(*pending_load_);
+  pending_load_.reset();
+  const Status outcome = finished->status();
+  const bool goes_on = !load.stay_paused && (outcome || !load.was_faulted);
+  if (goes_on) pacer_.resume(now, world_->time());
+  if (outcome) {
+    install(std::move(**finished), now);
+  } else {
+    showState();
+  }
+  answerLoad(load, outcome);
+}
+
+std::optional<TimePoint> Simulation::nextExpiry() const { return instruments_.nextExpiry(instrumentExpiry()); }
+
+Clock::duration Simulation::instrumentExpiry() const { return wallSeconds(scene_->instrument_expiry); }
+
+}  // namespace bleedsim::daemon

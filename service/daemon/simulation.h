@@ -1,0 +1,113 @@
+// The simulation thread's work: inputs, steps, frames. Owns the world. It never calls the middleware or the logger.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "service/daemon/channels.h"
+#include "service/daemon/frame_clock.h"
+#include "service/daemon/instrument_table.h"
+#include "service/daemon/pacer.h"
+#include "service/daemon/scene_loader.h"
+
+namespace bleedsim::daemon {
+
+struct SimulationOptions {
+  dds::Pace pace;
+  std::optional<double> frame_rate;  ///< frames per simulated second, instead of the scenes'
+  std::optional<double> duration;    ///< simulated s of one epoch after which the session ends
+};
+
+class Simulation {
+ public:
+  Simulation(const SimulationOptions& options, LoadedScene first, SceneFactory factory, Channels& channels, TimePoint now);
+
+  /// What to do after a tick: go on at once, wait for input (at most until `until`), or end.
+  struct Next {
+    enum class Kind { again, wait, stop } kind = Kind::again;
+    std::optional<TimePoint> until;
+  };
+
+  /// Takes all inputs, then does at most one step. Never waits.
+  Next tick(TimePoint now);
+
+  /// tick() until it says stop or requestStop() was called, waiting in between.
+  void run();
+  /// From any thread.
+  void requestStop();
+
+  dds::SessionState state() const;
+  std::uint32_t epoch() const { return epoch_; }
+  const sph::World& world() const { return *world_; }
+
+ private:
+  struct PendingLoad {
+    dds::DecodedRequest request;
+    bool reset = false;
+    bool stay_paused = false;  // the new world waits as the old one did
+    bool was_faulted = false;
+  };
+
+  // simulation.cpp
+  void install(LoadedScene loaded, TimePoint now);
+  void finishLoading(TimePoint now);
+  void advance(TimePoint now);
+  void publishFrame(TimePoint now);
+  void showState();
+  void fault(const std::string& reason, TimePoint now);
+  std::optional<TimePoint> nextExpiry() const;
+  Clock::duration instrumentExpiry() const;
+
+  // simulation_requests.cpp
+  void drainInputs(TimePoint now);
+  void carryOut(dds::DecodedRequest& request, TimePoint now);
+  Result<sph::Applied> perform(dds::DecodedRequest& request, TimePoint now);
+  Result<sph::Applied> applyToWorld(const sph::Command& command);
+  Status startLoading(SceneJob job, bool reset, TimePoint now);
+  Result<sph::Applied> setOutput(const dds::SetOutput& output);
+  void answer(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id);
+  void answerLoad(PendingLoad& load, const Status& status);
+  void send(dds::Reply reply);
+  template <class Applied>
+  void record(Applied&& input) {
+    if (!channels_.journal.append(world_->stepCount(), world_->time(), std::forward<Applied>(input))) {
+      channels_.counters.add(ServiceCounter::journal_lost);
+    }
+    channels_.publisher.notify();
+  }
+
+  // simulation_instruments.cpp
+  void takeSample(const InstrumentInput& input);
+  void applyInstruments();
+  void endSilentInstruments(TimePoint now);
+  void endInstrumentsOf(std::uint64_t writer);
+  void endInstrument(std::size_t index, dds::InstrumentEndReason reason);
+
+  SimulationOptions options_;
+  Channels& channels_;
+  SceneLoader loader_;
+  std::unique_ptr<sph::World> world_;
+  std::shared_ptr<const scene::SceneDescription> scene_;
+  std::uint32_t epoch_ = 0;
+  std::uint32_t attributes_ = 0;
+  Pacer pacer_;
+  FrameClock frame_clock_;
+  InstrumentTable instruments_;
+  sph::ForceKey next_force_key_ = 1;
+  std::uint32_t steps_left_ = 0;  // of a step request, in a pause
+  std::uint32_t steps_in_frame_ = 0;
+  std::array<double, static_cast<std::size_t>(sph::Stage::count)> stage_seconds_at_frame_{};
+  std::optional<PendingLoad> pending_load_;
+  bool faulted_ = false;
+  std::string fault_text_;
+  bool ended_ = false;
+  std::atomic<bool> stop_requested_{false};
+  Input input_;  // reused by drainInputs()
+};
+
+}  // namespace bleedsim::daemon

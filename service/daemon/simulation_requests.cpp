@@ -1,0 +1,178 @@
+// Requests: each is carried out between two steps and answered.
+#include <fmt/core.h>
+#include <utility>
+
+#include "service/daemon/simulation.h"
+#include "service/dds/command_limits.h"
+
+namespace bleedsim::daemon {
+namespace {
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+// One for the request at hand, one for the load that may end at any time.
+constexpr std::size_t kReplyReserve = 2;
+
+Status loadingNow() { return {StatusCode::wrong_state, "a scene is being loaded: wait for its reply"}; }
+Status faultedNow() { return {StatusCode::wrong_state, "the solver has stopped on bad numbers: reset or load a scene first"}; }
+
+}  // namespace
+
+void Simulation::drainInputs(TimePoint now) {
+  // At most one queue full, so that a flood of input cannot keep the world from stepping.
+  for (std::size_t i = 0; i < CommandQueue::kCapacity; ++i) {
+    if (ended_ || channels_.replies.room() < kReplyReserve || !channels_.commands.tryPop(input_)) return;
+    std::visit(Overloaded{[&](dds::DecodedRequest& request) { carryOut(request, now); },
+                          [&](InstrumentInput& sample) { takeSample(sample); },
+                          [&](const WriterLost& lost) { endInstrumentsOf(lost.writer); }},
+               input_);
+  }
+}
+
+void Simulation::carryOut(dds::DecodedRequest& request, TimePoint now) {
+  const bool was_loading = pending_load_.has_value();
+  const Result<sph::Applied> done = perform(request, now);
+  if (!done) {
+    answer(request, done.status(), 0);
+    return;
+  }
+  if (!was_loading && pending_load_) {
+    pending_load_->request = std::move(request);
+    showState();
+    return;
+  }
+  answer(request, {}, done->object_id);
+  if (request.original) record(dds::RequestTaken{std::move(request.original), done->object_id});
+}
+
+Result<sph::Applied> Simulation::perform(dds::DecodedRequest& request, TimePoint now) {
+  const auto running_only = [this]() -> Status {
+    if (pending_load_) return loadingNow();
+    if (faulted_) return faultedNow();
+    return {};
+  };
+  return std::visit(
+      Overloaded{
+          [&](const dds::Ping&) -> Result<sph::Applied> { return sph::Applied{}; },
+          [&](const sph::AddWound& add) { return applyToWorld(add); },
+          [&](const sph::UpdateWound& update) { return applyToWorld(update); },
+          [&](const sph::RemoveWound& remove) { return applyToWorld(remove); },
+          [&](const dds::PushForce& push) {
+            return applyToWorld(
+                sph::SetForce{next_force_key_++, push.position, push.radius, push.force, world_->time() + push.duration});
+          },
+          [&](const dds::PauseSession&) -> Result<sph::Applied> {
+            if (Status possible = running_only(); !possible) return possible;
+            steps_left_ = 0;
+            pacer_.pause(now, world_->time());
+            showState();
+            return sph::Applied{};
+          },
+          [&](const dds::ResumeSession&) -> Result<sph::Applied> {
+            if (Status possible = running_only(); !possible) return possible;
+            steps_left_ = 0;
+            pacer_.resume(now, world_->time());
+            showState();
+            return sph::Applied{};
+          },
+          [&](const dds::ResetSession&) -> Result<sph::Applied> {
+            if (Status started = startLoading({{}, scene_}, true, now); !started) return started;
+            return sph::Applied{};
+          },
+          [&](const dds::StepSession& step) -> Result<sph::Applied> {
+            if (Status possible = running_only(); !possible) return possible;
+            if (!pacer_.paused()) return Status{StatusCode::wrong_state, "the session is running: pause it before stepping"};
+            if (step.count > dds::kMaxStepCount - steps_left_) {
+              return Status{StatusCode::capacity, fmt::format("{} steps are still to be done: wait for them", steps_left_)};
+            }
+            steps_left_ += step.count;
+            return sph::Applied{};
+          },
+          [&](const dds::SetPace& set) -> Result<sph::Applied> {
+            pacer_.setPace(set.pace, now, world_->time());
+            showState();
+            return sph::Applied{};
+          },
+          [&](const dds::SetOutput& output) { return setOutput(output); },
+          [&](dds::LoadScene& load) -> Result<sph::Applied> {
+            if (Status started = startLoading({std::move(load.text), {}}, false, now); !started) return started;
+            return sph::Applied{};
+          },
+          [&](const dds::ShutdownSession&) -> Result<sph::Applied> {
+            ended_ = true;
+            return sph::Applied{};
+          },
+      },
+      request.action);
+}
+
+Result<sph::Applied> Simulation::applyToWorld(const sph::Command& command) {
+  if (pending_load_) return loadingNow();
+  if (faulted_) return faultedNow();
+  const std::size_t wounds_before = world_->wounds().size();
+  Result<sph::Applied> applied = world_->apply(command);
+  if (world_->wounds().size() != wounds_before) showState();
+  return applied;
+}
+
+Status Simulation::startLoading(SceneJob job, bool reset, TimePoint now) {
+  if (pending_load_) return loadingNow();
+  // A world that stopped on bad numbers is paused by that alone: what replaces it runs.
+  const bool stay_paused = pacer_.paused() && !faulted_;
+  pending_load_.emplace(PendingLoad{{}, reset, stay_paused, faulted_});
+  pacer_.pause(now, world_->time());
+  loader_.start(std::move(job));
+  return {};
+}
+
+Result<sph::Applied> Simulation::setOutput(const dds::SetOutput& output) {
+  if (pending_load_) return loadingNow();
+  if (output.attributes && (*output.attributes & sph::kFrameViscosity) != 0 && !scene_->world.effects.viscosity) {
+    return Status{StatusCode::unsupported,
+                  "output.attributes asks for viscosity, but the scene has no viscosity effect: leave the bit out"};
+  }
+  if (output.attributes) attributes_ = *output.attributes;
+  if (output.frame_rate) frame_clock_.setRate(*output.frame_rate, world_->time());
+  showState();
+  return sph::Applied{};
+}
+
+void Simulation::answerLoad(PendingLoad& load, const Status& status) {
+  dds::Reply reply;
+  reply.key = load.request.key;
+  reply.applied_step = status ? 0 : world_->stepCount();
+  reply.sim_time = world_->time();
+  reply.epoch = epoch_;
+  reply.receive_stamp_ns = load.request.receive_stamp_ns;
+  reply.reason = status.message();
+  if (!status) {
+    reply.code = load.reset || status.code() == StatusCode::internal ? dds::ReplyCode::failed : dds::ReplyCode::scene;
+  }
+  send(std::move(reply));
+  if (status && load.request.original) record(dds::RequestTaken{std::move(load.request.original), 0});
+}
+
+void Simulation::answer(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id) {
+  dds::Reply reply;
+  reply.key = request.key;
+  reply.code = dds::replyCode(status.code());
+  reply.applied_step = world_->stepCount() + 1;
+  reply.sim_time = world_->time();
+  reply.epoch = epoch_;
+  reply.object_id = object_id;
+  reply.reason = status.message();
+  reply.receive_stamp_ns = request.receive_stamp_ns;
+  if (const auto* ping = std::get_if<dds::Ping>(&request.action)) reply.client_stamp_ns = ping->client_stamp_ns;
+  send(std::move(reply));
+}
+
+void Simulation::send(dds::Reply reply) {
+  if (reply.code != dds::ReplyCode::accepted) channels_.counters.add(ServiceCounter::requests_refused);
+  if (!channels_.replies.tryPush(std::move(reply))) channels_.counters.add(ServiceCounter::replies_lost);
+  channels_.publisher.notify();
+}
+
+}  // namespace bleedsim::daemon
