@@ -41,28 +41,32 @@ void copyVisible(const Particles<Real>& p, const Real* density, std::uint32_t co
   frame.attributes = attributes;
 }
 
-/// Density errors and kinetic energy of the free particles; one fixed order, so equal for any thread count.
+/// Density errors, energy, momentum and centre of the free particles; one fixed order, so equal for any thread count.
 template <class Real>
-void addParticleStats(const Particles<Real>& p, const Real* density, std::uint32_t count, double rest_density, double mass,
-                      WorldStats& stats) {
+void addParticleStats(const Particles<Real>& p, const Real* density, std::uint32_t count, double h, double rest_density,
+                      double mass, WorldStats& stats) {
   double error_sum = 0.0;
   double error_max = 0.0;
   double speed2_sum = 0.0;
+  Vec3 velocity_sum = Vec3::Zero();
+  Vec3 position_sum = Vec3::Zero();
   std::uint32_t free = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (p.driver[i] != 0) continue;
     const double error = std::max(0.0, static_cast<double>(density[i]) / rest_density - 1.0);
     error_sum += error;
     error_max = std::max(error_max, error);
-    const double vx = static_cast<double>(p.vx[i]);
-    const double vy = static_cast<double>(p.vy[i]);
-    const double vz = static_cast<double>(p.vz[i]);
-    speed2_sum += vx * vx + vy * vy + vz * vz;
+    const Vec3 velocity{static_cast<double>(p.vx[i]), static_cast<double>(p.vy[i]), static_cast<double>(p.vz[i])};
+    velocity_sum += velocity;
+    position_sum += Vec3{static_cast<double>(p.x[i]), static_cast<double>(p.y[i]), static_cast<double>(p.z[i])};
+    speed2_sum += velocity.squaredNorm();
     ++free;
   }
   stats.mean_density_error = free > 0 ? error_sum / free : 0.0;
   stats.max_density_error = error_max;
   stats.kinetic_energy = 0.5 * mass * speed2_sum;
+  stats.momentum = mass * velocity_sum;
+  stats.center = free > 0 ? Vec3{position_sum * (h / free)} : Vec3::Zero();
 }
 
 /// A 64-bit hash in four independent lanes of multiply and rotate, so that hashing every frame costs no frame.

@@ -91,6 +91,8 @@ struct WorldStats {
   double max_density_error = 0.0;
   double max_speed = 0.0;                                              ///< m/s
   double kinetic_energy = 0.0;                                         ///< J
+  Vec3 momentum = Vec3::Zero();                                        ///< kg m/s, of the free particles
+  Vec3 center = Vec3::Zero();                                          ///< m, of the free particles' mass; zero without any
   std::array<double, static_cast<int>(Stage::count)> stage_seconds{};  ///< summed since creation
   std::array<std::uint64_t, static_cast<int>(Counter::count)> counters{};
 };

@@ -302,7 +302,7 @@ void WorldCore<Real>::collectStats(WorldStats& stats) const {
   stats.emitted_volume = wounds_.emittedVolume();
   stats.commanded_volume = wounds_.commandedVolume();
   stats.max_speed = max_speed_;
-  addParticleStats(particles_, passes_.density(), count_, description_.rest_density, lattice_.particle_mass, stats);
+  addParticleStats(particles_, passes_.density(), count_, h_, description_.rest_density, lattice_.particle_mass, stats);
   stats.stage_seconds = clock_.seconds();
   stats.counters = counters_;
   stats.counters[static_cast<std::size_t>(Counter::emission_refused)] = wounds_.refusedParticles();
