@@ -17,7 +17,7 @@ namespace bleedsim::sph::HWY_NAMESPACE {
 
 /// The enabled effects for one particle. Plain inheritance: standard library helpers are compiled for the baseline and would not
 /// be inlined here.
-template <class L, class... Effects>
+template <class L, PairEffect<L>... Effects>
 class EffectPack : private Effects... {
  public:
   using Real = typename L::Scalar;
@@ -25,7 +25,7 @@ class EffectPack : private Effects... {
   HWY_INLINE void pair(const Pair<L>& p, PairSums<L>& sums) const { (Effects::pair(p, sums), ...); }
 };
 
-template <class L, bool kPeriodic, class... Effects>
+template <class L, bool kPeriodic, PairEffect<L>... Effects>
 class ForcePass {
  public:
   using Real = typename L::Scalar;

@@ -6,8 +6,11 @@
 #define BLEEDSIM_SPH_PASSES_PAIR_GEOMETRY_INL_H_
 #endif
 
+#include <concepts>
+
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/passes/lanes-inl.h"
+#include "service/sph/passes/pass_jobs.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
@@ -24,6 +27,16 @@ struct Pair {
 template <class L>
 struct PairSums {
   typename L::V ax, ay, az;
+};
+
+/// An effect that acts inside the fused pair loop: built once for each particle from its record, then asked for each vector of
+/// neighbours. kGroups is how many groups of record fields it reads (pair_set.h).
+template <class E, class L>
+concept PairEffect = std::constructible_from < E,
+        const ForceJob<typename L::Scalar>
+&, const typename L::Scalar* > &&requires(const E& effect, const Pair<L>& pair, PairSums<L>& sums) {
+  { E::kGroups } -> std::convertible_to<int>;
+  { effect.pair(pair, sums) } -> std::same_as<void>;
 };
 
 }  // namespace bleedsim::sph::HWY_NAMESPACE
