@@ -1,0 +1,124 @@
+// Density and pair accelerations of every compiled pass against the brute-force oracle in double precision.
+#include <gtest/gtest.h>
+#include <tuple>
+
+#include "tests/unit/sph/pass_rig.h"
+
+namespace bleedsim::sph {
+namespace {
+
+using test::bruteForce;
+using test::OracleFields;
+
+std::string nameOf(PairSet set) {
+  const std::string pressure = set.pressure == PressureTerm::none ? "" : "Pressure";
+  if (set.viscosity == ViscosityTerm::none) return pressure;
+  return pressure + (set.viscosity == ViscosityTerm::uniform ? "UniformViscosity" : "HarmonicViscosity");
+}
+
+std::string nameOf(const std::array<bool, 3>& periodic) {
+  std::string name;
+  for (std::size_t a = 0; a < 3; ++a) name += periodic[a] ? std::string{"XYZ"}.substr(a, 1) : "";
+  return name.empty() ? "Open" : "Periodic" + name;
+}
+
+/// 9 x 8 x 7 stirred particles; sides of 4.5, 4 and 3.5 support radii wrap where `periodic` says so.
+WorldDescription scene(PairSet set, const std::array<bool, 3>& periodic) {
+  WorldDescription description = withPairSet(test::periodicBox({9, 8, 7}, 0.3), set);
+  description.domain.periodic = periodic;
+  return description;
+}
+
+using Case = std::tuple<SimdTarget, PairSet, std::array<bool, 3>>;
+class PairPass : public testing::TestWithParam<Case> {};
+
+TEST_P(PairPass, EqualsBruteForce) {
+  const auto& [target, set, periodic] = GetParam();
+  const WorldDescription description = scene(set, periodic);
+  const PassRig<float> rig{description, *findPasses(target), stirred(description)};
+  const OracleFields oracle = bruteForce(description, set, rig.rounded());
+
+  EXPECT_LT(largestRelativeDifference(rig.density(), oracle.density), 1e-5);
+  const double scale = largestNorm(oracle.acceleration);
+  ASSERT_GT(scale, 1.0) << "the scene is at rest: nothing is compared";
+  EXPECT_LT(largestDifference(rig.acceleration(), oracle.acceleration), 1e-5 * scale);
+  EXPECT_EQ(rig.overflowed(), 0u);
+}
+
+TEST_P(PairPass, GivesTheSameBitsForAnyNumberOfShares) {
+  const auto& [target, set, periodic] = GetParam();
+  const WorldDescription description = scene(set, periodic);
+  const PassRig<float> one{description, *findPasses(target), stirred(description)};
+  for (const int shares : {2, 3, 5}) {
+    const PassRig<float> many{description, *findPasses(target), stirred(description), shares};
+    EXPECT_EQ(one.density(), many.density()) << shares << " shares";
+    EXPECT_EQ(one.acceleration(), many.acceleration()) << shares << " shares";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PairPass,
+                         testing::Combine(testing::ValuesIn(availableSimdTargets()), testing::ValuesIn(allPairSets()),
+                                          testing::Values(std::array{false, false, false}, std::array{true, true, true},
+                                                          std::array{true, false, true})),
+                         [](const testing::TestParamInfo<Case>& tested) {
+                           return std::string{simdTargetName(std::get<0>(tested.param))} + "_" +
+                                  nameOf(std::get<1>(tested.param)) + "_" + nameOf(std::get<2>(tested.param));
+                         });
+
+class ReferencePass : public testing::TestWithParam<std::tuple<PairSet, std::array<bool, 3>>> {};
+
+TEST_P(ReferencePass, EqualsBruteForceToRoundOff) {
+  const auto& [set, periodic] = GetParam();
+  const WorldDescription description = scene(set, periodic);
+  const PassRig<double> rig{description, referencePasses(), stirred(description)};
+  const OracleFields oracle = bruteForce(description, set, rig.rounded());
+  EXPECT_LT(largestRelativeDifference(rig.density(), oracle.density), 1e-12);
+  EXPECT_LT(largestDifference(rig.acceleration(), oracle.acceleration), 1e-12 * largestNorm(oracle.acceleration));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ReferencePass,
+                         testing::Combine(testing::ValuesIn(allPairSets()),
+                                          testing::Values(std::array{false, false, false}, std::array{true, true, true},
+                                                          std::array{false, true, false})),
+                         [](const testing::TestParamInfo<std::tuple<PairSet, std::array<bool, 3>>>& tested) {
+                           return nameOf(std::get<0>(tested.param)) + "_" + nameOf(std::get<1>(tested.param));
+                         });
+
+TEST(PairPasses, WithBackgroundPressureEqualsBruteForce) {
+  PairSet set{PressureTerm::variational, ViscosityTerm::none};
+  WorldDescription description = scene(set, {true, true, true});
+  description.effects.pressure->background_pressure = 500.0;
+  const PassRig<double> rig{description, referencePasses(), stirred(description)};
+  const OracleFields oracle = bruteForce(description, set, rig.rounded());
+  EXPECT_LT(largestDifference(rig.acceleration(), oracle.acceleration), 1e-12 * largestNorm(oracle.acceleration));
+
+  description.effects.pressure->background_pressure = 0.0;
+  const PassRig<double> without{description, referencePasses(), stirred(description)};
+  EXPECT_GT(largestDifference(rig.acceleration(), without.acceleration()), 1.0);
+}
+
+TEST(PairPasses, WithoutPairEffectsGivesZeroAccelerations) {
+  WorldDescription description = scene({}, {false, false, false});
+  for (const SimdTarget target : availableSimdTargets()) {
+    const PassRig<float> rig{description, *findPasses(target), stirred(description), 2};
+    EXPECT_EQ(largestNorm(rig.acceleration()), 0.0);
+    EXPECT_GT(rig.density().front(), 0.0);
+  }
+}
+
+TEST(PairPasses, SupportRatiosOfTwoAndAHalfAndThreeEqualBruteForce) {
+  for (const double ratio : {1.5, 2.5, 3.0}) {
+    PairSet set{PressureTerm::variational, ViscosityTerm::uniform};
+    WorldDescription description = withPairSet(test::freeBlock({9, 8, 7}, 0.3), set);
+    description.support_ratio = ratio;
+    for (const SimdTarget target : availableSimdTargets()) {
+      const PassRig<float> rig{description, *findPasses(target), stirred(description)};
+      const OracleFields oracle = bruteForce(description, set, rig.rounded());
+      EXPECT_LT(largestRelativeDifference(rig.density(), oracle.density), 1e-5) << ratio;
+      EXPECT_LT(largestDifference(rig.acceleration(), oracle.acceleration), 1e-5 * largestNorm(oracle.acceleration)) << ratio;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bleedsim::sph

@@ -1,0 +1,172 @@
+// Grid and pair passes without a world: a test places any particles and reads the fields, both in the order of placing.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "service/sph/executor.h"
+#include "service/sph/neighbors/cell_grid.h"
+#include "service/sph/passes/pair_passes.h"
+#include "service/sph/seeding.h"
+#include "service/sph/world_setup.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/scenes.h"
+
+namespace bleedsim::sph {
+
+template <class Real>
+class PassRig {
+ public:
+  /// `description` says which effects act; its blocks are not seeded.
+  PassRig(const WorldDescription& description, const PassTable<Real>& table, const test::OracleParticles& particles,
+          int shares = 1)
+      : h_{description.supportRadius()},
+        capacity_{static_cast<std::uint32_t>(particles.position.size())},
+        shares_{shares},
+        executor_{makeExecutor(shares)},
+        placed_{capacity_, isHarmonic(description), 0},
+        sorted_{capacity_, isHarmonic(description), 9},
+        grid_{capacity_,
+              asArray(description.domain.lower / h_),
+              asArray(description.domain.upper / h_),
+              description.domain.periodic,
+              0.0,
+              shares},
+        passes_{table,
+                pairSet(description),
+                description.domain.periodic[0] || description.domain.periodic[1] || description.domain.periodic[2],
+                false,
+                pairConstants<Real>(description, latticeOf(description), speedOfSound(description)),
+                capacity_,
+                description.support_ratio,
+                shares} {
+    for (std::uint32_t i = 0; i < capacity_; ++i) place(i, particles);
+    run();
+  }
+
+  /// The particles as the passes see them, rounded to Real: what the oracle must be given.
+  test::OracleParticles rounded() const {
+    test::OracleParticles particles;
+    for (std::uint32_t i = 0; i < capacity_; ++i) {
+      particles.position.push_back(h_ * Vec3{double(placed_.x[i]), double(placed_.y[i]), double(placed_.z[i])});
+      particles.velocity.push_back({double(placed_.vx[i]), double(placed_.vy[i]), double(placed_.vz[i])});
+      if (!placed_.inverse_viscosity.empty()) particles.viscosity.push_back(1.0 / double(placed_.inverse_viscosity[i]));
+    }
+    return particles;
+  }
+  const std::vector<double>& density() const { return density_; }
+  const std::vector<Vec3>& acceleration() const { return acceleration_; }
+  std::uint64_t overflowed() const { return overflowed_; }
+
+ private:
+  static bool isHarmonic(const WorldDescription& d) { return pairSet(d).viscosity == ViscosityTerm::harmonic; }
+  static std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+  static RestLattice latticeOf(const WorldDescription& d) {
+    return calibrateRestLattice({KernelType::wendland_c2, d.supportRadius()}, d.spacing, d.rest_density);
+  }
+
+  void place(std::uint32_t i, const test::OracleParticles& particles) {
+    const Vec3 position = particles.position[i] / h_;
+    placed_.x[i] = static_cast<Real>(position.x());
+    placed_.y[i] = static_cast<Real>(position.y());
+    placed_.z[i] = static_cast<Real>(position.z());
+    placed_.vx[i] = static_cast<Real>(particles.velocity[i].x());
+    placed_.vy[i] = static_cast<Real>(particles.velocity[i].y());
+    placed_.vz[i] = static_cast<Real>(particles.velocity[i].z());
+    placed_.id[i] = i;
+    if (!placed_.inverse_viscosity.empty()) placed_.inverse_viscosity[i] = static_cast<Real>(1.0 / particles.viscosity[i]);
+  }
+
+  void run() {
+    Bounds<Real> bounds;
+    for (std::uint32_t i = 0; i < capacity_; ++i) bounds.include(placed_.x[i], placed_.y[i], placed_.z[i]);
+    grid_.cover(bounds);
+    for (std::uint32_t i = 0; i < capacity_; ++i) grid_.cells()[i] = grid_.cellAt(placed_.x[i], placed_.y[i], placed_.z[i]);
+    const std::uint32_t count = grid_.sort(capacity_, shares_, *executor_, [&](std::uint32_t from, std::uint32_t to) {
+      sorted_.copyOne(to, placed_, from);
+      passes_.pack(to, sorted_);
+    });
+    overflowed_ = passes_.density(grid_, sorted_, nullptr, count, shares_, *executor_);
+    passes_.force(grid_, sorted_, count, shares_, *executor_);
+    density_.resize(capacity_);
+    acceleration_.resize(capacity_);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const Real* a = passes_.acceleration() + std::size_t{k} * 4;
+      density_[sorted_.id[k]] = static_cast<double>(passes_.density()[k]);
+      acceleration_[sorted_.id[k]] = {double(a[0]), double(a[1]), double(a[2])};
+    }
+  }
+
+  double h_;
+  std::uint32_t capacity_;
+  int shares_;
+  std::unique_ptr<Executor> executor_;
+  Particles<Real> placed_, sorted_;
+  CellGrid<Real> grid_;
+  PairPasses<Real> passes_;
+  std::uint64_t overflowed_ = 0;
+  std::vector<double> density_;
+  std::vector<Vec3> acceleration_;
+};
+
+/// Every set of pair effects that is compiled.
+inline std::vector<PairSet> allPairSets() {
+  return {{PressureTerm::variational, ViscosityTerm::none},
+          {PressureTerm::none, ViscosityTerm::uniform},
+          {PressureTerm::none, ViscosityTerm::harmonic},
+          {PressureTerm::variational, ViscosityTerm::uniform},
+          {PressureTerm::variational, ViscosityTerm::harmonic}};
+}
+
+/// Turns the description's effects into those of `set`; it must have a block.
+inline WorldDescription withPairSet(WorldDescription description, PairSet set) {
+  description.effects.pressure.reset();
+  description.effects.viscosity.reset();
+  if (set.pressure == PressureTerm::variational) description.effects.pressure.emplace();
+  if (set.viscosity != ViscosityTerm::none) description.effects.viscosity.emplace();
+  if (set.viscosity == ViscosityTerm::harmonic) description.fluid_blocks.at(0).viscosity = 0.02;
+  return description;
+}
+
+/// The particles of the description's blocks with random velocities up to 0.3 m/s along each axis and viscosities of 1..21 mPa s.
+inline test::OracleParticles stirred(const WorldDescription& description) {
+  test::OracleParticles particles;
+  JitterSource random{42};
+  for (const FluidBlock& block : description.fluid_blocks) {
+    seedBlock(block, description.spacing, random, [&](Vec3 position) {
+      for (Eigen::Index a = 0; a < 3; ++a) {
+        const double side = description.domain.upper[a] - description.domain.lower[a];
+        if (description.domain.periodic[static_cast<std::size_t>(a)])
+          position[a] -= side * std::floor((position[a] - description.domain.lower[a]) / side);
+      }
+      particles.position.push_back(position);
+    });
+  }
+  for (std::size_t i = 0; i < particles.position.size(); ++i) {
+    const double x = random.next();
+    const double y = random.next();
+    particles.velocity.push_back(0.3 * Vec3{x, y, random.next()});
+    particles.viscosity.push_back(0.011 + 0.01 * random.next());
+  }
+  return particles;
+}
+
+inline double largestNorm(std::span<const Vec3> field) {
+  double largest = 0.0;
+  for (const Vec3& v : field) largest = std::max(largest, v.norm());
+  return largest;
+}
+inline double largestDifference(std::span<const Vec3> a, std::span<const Vec3> b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+  return largest;
+}
+/// Relative to b.
+inline double largestRelativeDifference(std::span<const double> a, std::span<const double> b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]) / b[i]);
+  return largest;
+}
+
+}  // namespace bleedsim::sph
