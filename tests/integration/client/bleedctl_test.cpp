@@ -1,0 +1,154 @@
+// bleedctl as a process of its own, against a fake service here.
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/core.h>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <optional>
+#include <unistd.h>
+
+#include "tests/integration/client/child_process.h"
+#include "tests/integration/client/fake_service.h"
+
+namespace bleedsim::client_test {
+namespace {
+
+using testing::HasSubstr;
+
+class BleedctlTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string tag = fmt::format("b{}", getpid());
+    setenv("BLEEDSIM_DDS_TAG", tag.c_str(), 1);
+    auto participant = transport::Participant::create({.domain = 66, .tag = tag});
+    ASSERT_TRUE(participant.ok()) << participant.status().message();
+    participant_.emplace(*participant);
+  }
+
+  std::unique_ptr<FakeService> serve(const std::string& name, FakeService::Judge judge = {}) {
+    auto service = FakeService::start(*participant_, name, std::move(judge));
+    EXPECT_TRUE(service.ok());
+    (*service)->publishStatus();
+    (*service)->publishScene("round_wound");
+    return std::move(*service);
+  }
+
+  static std::vector<std::string> command(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {BLEEDCTL_PATH, "--domain", "66"});
+    return arguments;
+  }
+  static Finished bleedctl(std::vector<std::string> arguments) { return runProcess(command(std::move(arguments)), true); }
+
+  std::optional<transport::Participant> participant_;
+};
+
+TEST_F(BleedctlTest, ListsSessions) {
+  const auto one = serve("one");
+  const auto two = serve("two");
+  const Finished text = bleedctl({"list"});
+  EXPECT_EQ(text.code, 0);
+  EXPECT_THAT(text.output, testing::AllOf(HasSubstr("one"), HasSubstr("two"), HasSubstr("running")));
+  const Finished json = bleedctl({"list", "--json"});
+  EXPECT_EQ(json.code, 0);
+  EXPECT_EQ(json.output.front(), '[');
+  EXPECT_THAT(json.output, HasSubstr(R"("session": "two")"));
+}
+
+TEST_F(BleedctlTest, ShowsStatusAndSceneWithOptionsOnEitherSide) {
+  const auto service = serve("one");
+  const Finished before = bleedctl({"--session", "one", "--json", "status"});
+  EXPECT_EQ(before.code, 0) << before.output;
+  const Finished after = bleedctl({"status", "--session", "one", "--json"});
+  EXPECT_EQ(after.code, 0) << after.output;
+  for (const Finished& finished : {before, after}) {
+    EXPECT_THAT(finished.output, HasSubstr(R"("state": "running")"));
+    EXPECT_THAT(finished.output, HasSubstr(R"("name": "round_wound")"));
+  }
+}
+
+TEST_F(BleedctlTest, AMissingSessionHasCodeThreeAndNamesTheOthers) {
+  const auto service = serve("one");
+  const Finished finished = bleedctl({"pause", "--session", "other", "--timeout", "1"});
+  EXPECT_EQ(finished.code, 3);
+  EXPECT_THAT(finished.output, testing::AllOf(HasSubstr("'other'"), HasSubstr("one")));
+}
+
+TEST_F(BleedctlTest, SendsEveryCommandAndPrintsTheAnswer) {
+  std::vector<std::uint32_t> kinds;
+  const auto service = serve("one", [&kinds](const bleed_v1_Request& request, bleed_v1_Reply& reply) {
+    kinds.push_back(request.body._d);
+    reply.object_id = request.body._d == bleed_v1_REQUEST_WOUND_ADD ? 7 : 0;
+    reply.applied_step = 55;
+    return true;
+  });
+  const std::string scene = fmt::format("{}/bleedctl_{}.textproto", testing::TempDir(), getpid());
+  std::ofstream{scene} << "name: \"x\"\n";
+  const Finished added =
+      bleedctl({"wound", "add", "--at", "-0.01,0,0", "--radius-mm", "2", "--flow-ml-per-s", "1.5", "--normal", "0,0,1"});
+  EXPECT_EQ(added.code, 0) << added.output;
+  EXPECT_THAT(added.output, testing::AllOf(HasSubstr("wound 7"), HasSubstr("step 55")));
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"wound", "move", "7", "--at", "0,0,0"},
+           {"wound", "set", "7", "--flow-ml-per-s", "3", "--session", "one"},
+           {"wound", "remove", "7"},
+           {"force", "--at", "0,0,0", "--radius-mm", "5", "--newtons", "0,0,-1", "--duration", "0.5"},
+           {"pause"},
+           {"resume"},
+           {"reset"},
+           {"step", "10"},
+           {"pace", "0.5"},
+           {"load", scene}}) {
+    const Finished finished = bleedctl(arguments);
+    EXPECT_EQ(finished.code, 0) << arguments.front() << ": " << finished.output;
+  }
+  std::filesystem::remove(scene);
+  EXPECT_EQ(kinds, (std::vector<std::uint32_t>{2, 3, 3, 4, 5, 6, 7, 8, 9, 10, 12}));
+}
+
+TEST_F(BleedctlTest, ARefusalHasCodeOneAndItsReason) {
+  const auto service = serve("one", [](const bleed_v1_Request&, bleed_v1_Reply& reply) {
+    reply.code = bleed_v1_REPLY_NOT_FOUND;
+    std::string{"wound 99 is unknown"}.copy(reply.reason, sizeof reply.reason - 1);
+    return true;
+  });
+  const Finished finished = bleedctl({"wound", "remove", "99"});
+  EXPECT_EQ(finished.code, 1);
+  EXPECT_THAT(finished.output, HasSubstr("wound 99 is unknown"));
+}
+
+TEST_F(BleedctlTest, ASilentSessionHasCodeThree) {
+  const auto service = serve("one", [](const bleed_v1_Request&, bleed_v1_Reply&) { return false; });
+  EXPECT_EQ(bleedctl({"pause", "--timeout", "1"}).code, 3);
+}
+
+TEST_F(BleedctlTest, WatchPrintsFiguresUntilItIsInterrupted) {
+  const auto service = serve("one");
+  ChildProcess watch{command({"watch", "--json"})};
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  ASSERT_TRUE(service->publishFrame(4).ok());
+  const auto line = watch.readLine();
+  ASSERT_TRUE(line.has_value());
+  EXPECT_THAT(*line, testing::AllOf(HasSubstr(R"("seq": 4)"), HasSubstr(R"("ml_emitted": 2)"), HasSubstr(R"("gaps": 0)")));
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 0);
+}
+
+TEST_F(BleedctlTest, ShutdownWaitsUntilTheSessionIsGone) {
+  auto service = serve("one");
+  ChildProcess shutdown{command({"shutdown"})};
+  ASSERT_TRUE(service->waitRequests(1));
+  service->publishStatus(bleed_v1_STATE_STOPPED);
+  EXPECT_EQ(shutdown.wait(), 0) << shutdown.output();
+}
+
+TEST_F(BleedctlTest, WrongUseHasCodeTwoAndAHint) {
+  const Finished flag = bleedctl({"wound", "add", "--att", "0,0,0"});
+  EXPECT_EQ(flag.code, 2);
+  EXPECT_THAT(flag.output, HasSubstr("bleedctl wound add --help"));
+  EXPECT_EQ(bleedctl({}).code, 2);
+}
+
+}  // namespace
+}  // namespace bleedsim::client_test
