@@ -1,0 +1,186 @@
+#include <cstring>
+#include <functional>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "service/dds/command_limits.h"
+#include "service/dds/decode.h"
+#include "service/sph/world.h"
+#include "tests/unit/dds/samples.h"
+
+namespace bleedsim::dds {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bleed_v1_RequestBody bodyOf(std::uint32_t kind) {
+  bleed_v1_RequestBody body{};
+  body._d = kind;
+  return body;
+}
+
+struct BadRequest {
+  const char* name;
+  std::function<bleed_v1_RequestBody()> make;
+  StatusCode code;
+  const char* text;
+};
+
+bleed_v1_RequestBody force(const std::function<void(bleed_v1_Force&)>& spoil) {
+  bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_FORCE);
+  body._u.force = push();
+  spoil(body._u.force);
+  return body;
+}
+bleed_v1_RequestBody pace(std::uint32_t mode, double factor) {
+  bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_PACE);
+  body._u.pace = {mode, factor};
+  return body;
+}
+bleed_v1_RequestBody output(double rate, std::uint32_t attributes) {
+  bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_OUTPUT);
+  body._u.output = {rate, true, attributes};
+  return body;
+}
+bleed_v1_RequestBody steps(std::uint32_t count) {
+  bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_STEP);
+  body._u.step.count = count;
+  return body;
+}
+bleed_v1_RequestBody sceneText(char* text) {
+  bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_LOAD_SCENE);
+  body._u.load_scene.text = text;
+  return body;
+}
+
+class BadRequestTest : public testing::TestWithParam<BadRequest> {};
+
+TEST_P(BadRequestTest, IsRefusedWithTheReason) {
+  const auto action = decodeAction(GetParam().make());
+  ASSERT_FALSE(action.ok());
+  EXPECT_EQ(action.status().code(), GetParam().code);
+  EXPECT_THAT(action.status().message(), HasSubstr(GetParam().text));
+}
+
+char empty_text[] = "";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadRequestTest,
+    testing::Values(
+        BadRequest{"unknown_case", [] { return bodyOf(999); }, StatusCode::unsupported, "request 999"},
+        BadRequest{"case_zero", [] { return bodyOf(0); }, StatusCode::unsupported, "request 0"},
+        BadRequest{"force_nan", [] { return force([](auto& f) { f.newtons.x = kNaN; }); }, StatusCode::invalid_argument,
+                   "force.newtons.x is nan"},
+        BadRequest{"force_huge", [] { return force([](auto& f) { f.newtons.z = -1e7; }); }, StatusCode::invalid_argument,
+                   "force.newtons.z is -1e+07"},
+        BadRequest{"force_position", [] { return force([](auto& f) { f.position.y = kInfinity; }); },
+                   StatusCode::invalid_argument, "force.position.y is inf"},
+        BadRequest{"force_radius", [] { return force([](auto& f) { f.radius_m = 0.0; }); }, StatusCode::invalid_argument,
+                   "force.radius_m"},
+        BadRequest{"force_duration", [] { return force([](auto& f) { f.duration_s = -1.0; }); }, StatusCode::invalid_argument,
+                   "force.duration_s"},
+        BadRequest{"force_endless", [] { return force([](auto& f) { f.duration_s = kInfinity; }); }, StatusCode::invalid_argument,
+                   "force.duration_s"},
+        BadRequest{"pace_mode", [] { return pace(3, 1.0); }, StatusCode::invalid_argument, "pace.mode is 3"},
+        BadRequest{"pace_zero", [] { return pace(bleed_v1_PACE_FACTOR, 0.0); }, StatusCode::invalid_argument, "pace.factor"},
+        BadRequest{"pace_nan", [] { return pace(bleed_v1_PACE_FACTOR, kNaN); }, StatusCode::invalid_argument, "pace.factor"},
+        BadRequest{"rate_negative", [] { return output(-60.0, 0); }, StatusCode::invalid_argument, "output.rate_hz"},
+        BadRequest{"rate_nan", [] { return output(kNaN, 0); }, StatusCode::invalid_argument, "output.rate_hz"},
+        BadRequest{"attribute_platelet", [] { return output(0.0, 1U << bleed_v1_SEMANTIC_PLATELET); }, StatusCode::unsupported,
+                   "output.attributes"},
+        BadRequest{"attribute_unknown", [] { return output(0.0, 1U << 31U); }, StatusCode::unsupported, "output.attributes"},
+        BadRequest{"no_steps", [] { return steps(0); }, StatusCode::invalid_argument, "step.count is 0"},
+        BadRequest{"too_many_steps", [] { return steps(0xFFFFFFFFU); }, StatusCode::invalid_argument, "step.count"},
+        BadRequest{"scene_null", [] { return sceneText(nullptr); }, StatusCode::invalid_argument, "load_scene.text is empty"},
+        BadRequest{"scene_empty", [] { return sceneText(empty_text); }, StatusCode::invalid_argument,
+                   "load_scene.text is empty"}),
+    [](const auto& tested) { return std::string{tested.param.name}; });
+
+TEST(DecodeAction, RefusesAnEndlessScene) {
+  std::string text(kMaxSceneBytes + 1, ' ');
+  EXPECT_FALSE(decodeAction(sceneText(text.data())).ok());
+  text.resize(kMaxSceneBytes);
+  EXPECT_TRUE(decodeAction(sceneText(text.data())).ok());
+}
+
+TEST(DecodeAction, KnowsEveryRequest) {
+  for (const std::uint32_t kind :
+       {bleed_v1_REQUEST_PING, bleed_v1_REQUEST_PAUSE, bleed_v1_REQUEST_RESUME, bleed_v1_REQUEST_RESET,
+        bleed_v1_REQUEST_WOUND_REMOVE, bleed_v1_REQUEST_OUTPUT, bleed_v1_REQUEST_PACE, bleed_v1_REQUEST_SHUTDOWN}) {
+    EXPECT_TRUE(decodeAction(bodyOf(kind)).ok()) << kind;
+  }
+  EXPECT_TRUE(decodeAction(force([](auto&) {})).ok());
+  EXPECT_TRUE(decodeAction(steps(3)).ok());
+}
+
+TEST(DecodeAction, TranslatesOutputAttributes) {
+  const auto action = decodeAction(output(30.0, 1U << bleed_v1_SEMANTIC_VELOCITY | 1U << bleed_v1_SEMANTIC_DENSITY | 1U));
+  ASSERT_TRUE(action.ok()) << action.status().message();
+  const auto& set = std::get<SetOutput>(*action);
+  EXPECT_EQ(set.frame_rate, 30.0);
+  EXPECT_EQ(set.attributes, sph::kFrameVelocity | sph::kFrameDensity);
+}
+
+TEST(DecodeAction, ReadsABooleanOfAnyByte) {
+  bleed_v1_RequestBody body = output(0.0, 1U << bleed_v1_SEMANTIC_VELOCITY);
+  const std::uint8_t strange = 0x5A;
+  std::memcpy(&body._u.output.set_attributes, &strange, 1);
+  const auto action = decodeAction(body);
+  ASSERT_TRUE(action.ok());
+  EXPECT_EQ(std::get<SetOutput>(*action).attributes, static_cast<std::uint32_t>(sph::kFrameVelocity));
+  EXPECT_FALSE(std::get<SetOutput>(*action).frame_rate.has_value());
+}
+
+TEST(RequestCopy, OwnsWhatItPointsTo) {
+  std::vector<double> outline{0.0, 0.0, 0.01, 0.0, 0.0, 0.01};
+  bleed_v1_Request request{};
+  request.body = bodyOf(bleed_v1_REQUEST_WOUND_ADD);
+  request.body._u.wound_add = discWound();
+  request.body._u.wound_add.outline = {6, 6, outline.data(), false};
+  const RequestCopy copy{request};
+  outline.assign(6, -1.0);
+  const dds_sequence_double& kept = copy.sample().body._u.wound_add.outline;
+  ASSERT_EQ(kept._length, 6U);
+  EXPECT_EQ(kept._buffer[2], 0.01);
+
+  std::string text = "name: 'a'";
+  request.body = sceneText(text.data());
+  const RequestCopy scene{request};
+  text.assign(text.size(), 'x');
+  EXPECT_STREQ(scene.sample().body._u.load_scene.text, "name: 'a'");
+}
+
+TEST(DecodeInstrument, KeepsWhatTheSampleSays) {
+  const auto sample = decodeInstrument(instrumentSample());
+  ASSERT_TRUE(sample.ok()) << sample.status().message();
+  EXPECT_EQ(sample->key.client[0], 7);
+  EXPECT_EQ(sample->key.tool, 3U);
+  EXPECT_EQ(sample->seq, 41U);
+  EXPECT_EQ(sample->force, sph::Vec3(0.1, 0.0, 0.0));
+  EXPECT_STREQ(sample->original.name, "PSM1");
+}
+
+TEST(DecodeInstrument, RefusesEveryBadNumber) {
+  const std::vector<std::function<void(bleed_v1_Instrument&)>> spoils{
+      [](auto& s) { s.position.x = kNaN; },    [](auto& s) { s.position.y = 2e6; },   [](auto& s) { s.force.z = kInfinity; },
+      [](auto& s) { s.force.x = 2e6; },        [](auto& s) { s.tip_radius_m = 0.0; }, [](auto& s) { s.tip_radius_m = kNaN; },
+      [](auto& s) { s.orientation.w = kNaN; }, [](auto& s) { s.name[0] = '\x01'; },   [](auto& s) { s.tip_radius_m = -1.0; },
+  };
+  for (std::size_t i = 0; i < spoils.size(); ++i) {
+    bleed_v1_Instrument sample = instrumentSample();
+    spoils[i](sample);
+    const auto decoded = decodeInstrument(sample);
+    ASSERT_FALSE(decoded.ok()) << i;
+    EXPECT_EQ(decoded.status().code(), StatusCode::invalid_argument) << i;
+    EXPECT_THAT(decoded.status().message(), HasSubstr("instrument.")) << i;
+  }
+}
+
+}  // namespace
+}  // namespace bleedsim::dds
