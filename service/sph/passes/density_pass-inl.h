@@ -14,6 +14,7 @@
 #include <algorithm>
 
 #include "service/sph/effects/pair_set.h"
+#include "service/sph/passes/direct_search-inl.h"
 #include "service/sph/passes/pass_jobs.h"
 #include "service/sph/passes/wendland_c2-inl.h"
 
@@ -181,7 +182,7 @@ class DensityPass {
     const V y = L::set(job_.y[i]);
     const V z = L::set(job_.z[i]);
     for (int c = 0; c < candidates_; c += kWidth) {
-      take(hits, distance2(L::load(x_ + c) - x, L::load(y_ + c) - y, L::load(z_ + c) - z), L::loadIds(ids_ + c));
+      take(hits, distance2<L>(L::load(x_ + c) - x, L::load(y_ + c) - y, L::load(z_ + c) - z), L::loadIds(ids_ + c));
       if (hits.count > kListLimit) return false;
     }
     return true;
@@ -198,13 +199,12 @@ class DensityPass {
       const V y = L::load(y_ + c);
       const V z = L::load(z_ + c);
       const auto ids = L::loadIds(ids_ + c);
-      take(a, distance2(x - x0, y - y0, z - z0), ids);
-      take(b, distance2(x - x1, y - y1, z - z1), ids);
+      take(a, distance2<L>(x - x0, y - y0, z - z0), ids);
+      take(b, distance2<L>(x - x1, y - y1, z - z1), ids);
       if (std::max(a.count, b.count) > kListLimit) return false;
     }
     return true;
   }
-  static V distance2(V dx, V dy, V dz) { return L::mulAdd(dz, dz, L::mulAdd(dy, dy, dx * dx)); }
 
   /// Pads the list to whole vectors and records where it is; returns its length in vectors.
   int closeList(std::uint32_t i, Hits& hits) {
@@ -222,9 +222,7 @@ class DensityPass {
     for (std::uint32_t k = 0; k < size; ++k) {
       V sum = L::set(Real(0));
       const Real* q2 = q2_ + kMaxNeighbors * k;
-      for (int v = 0; v < lengths_[k]; ++v) {
-        sum = sum + WendlandC2<L>::weight(L::max(one - L::sqrt(L::load(q2 + v * kWidth)), L::set(Real(0))));
-      }
+      for (int v = 0; v < lengths_[k]; ++v) sum = sum + weightAt(q2 + v * kWidth, one);
       L::store(sum, sums_ + k * kWidth);
     }
     for (std::uint32_t k = 0; k < size; k += kWidth) {
@@ -248,24 +246,24 @@ class DensityPass {
     job_.density[i] = density;
   }
 
-  /// The slow path of a particle with more neighbours than a list holds: nothing is left out, only time is lost.
+  /// The path of a particle without a list: it has too many neighbours, or there is no room for more lists.
   void sumDirectly(const NeighborRun<Real>* runs, int run_count, std::uint32_t i) {
-    Real sum = 0;
-    for (int k = 0; k < run_count; ++k) {
-      for (std::uint32_t j = runs[k].begin; j < runs[k].end; ++j) {
-        const Real dx = job_.x[j] + runs[k].shift_x - job_.x[i];
-        const Real dy = job_.y[j] + runs[k].shift_y - job_.y[i];
-        const Real dz = job_.z[j] + runs[k].shift_z - job_.z[i];
-        const Real q2 = dx * dx + dy * dy + dz * dz;
-        if (q2 >= Real(1)) continue;
-        const Real t = Real(1) - std::sqrt(q2);
-        sum += t * t * t * t * (Real(5) - Real(4) * t);
-      }
-    }
+    const V one = L::set(Real(1));
+    V rows[kWidth];
+    for (int r = 0; r < kWidth; ++r) rows[r] = L::set(Real(0));
+    V sum = L::set(Real(0));
+    DirectSearch<L, kPeriodic>::run(job_, runs, run_count, i, stride_, [&](const Real* q2, const std::uint32_t*, int vectors) {
+      for (int v = 0; v < vectors; ++v) sum = sum + weightAt(q2 + v * kWidth, one);
+    });
+    rows[0] = sum;
+    alignas(64) Real sums[kWidth];
+    L::store(L::sums(rows), sums);
     job_.blocks[i] = kOverflowList;
     ++job_.overflowed;
-    finish(i, sum);
+    finish(i, sums[0]);
   }
+
+  static V weightAt(const Real* q2, V one) { return WendlandC2<L>::weight(L::max(one - L::sqrt(L::load(q2)), L::set(Real(0)))); }
 
   DensityJob<Real>& job_;
   const std::uint32_t stride_;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "service/sph/passes/direct_search-inl.h"
 #include "service/sph/passes/pair_geometry-inl.h"
 #include "service/sph/passes/pass_jobs.h"
 #include "service/sph/passes/wendland_c2-inl.h"
@@ -87,7 +88,7 @@ class ForcePass {
     return L::subMul(d, image, L::set(period));
   }
 
-  /// A particle with more neighbours than a list holds: lists of its own, one after the other.
+  /// A particle without a list: its neighbours come straight from the cells.
   static void particleWithoutList(const ForceJob<Real>& job, std::uint32_t i, int row) {
     const Real* own = job.record + static_cast<std::size_t>(i) * kStride;
     const EffectPack<L, Effects...> effects{job, own};
@@ -98,25 +99,9 @@ class ForcePass {
     NeighborRun<Real> runs[GridView<Real>::kMaxRuns];
     const int run_count = job.grid.template neighborRuns<kPeriodic>(row, cx, runs);
 
-    constexpr int kChunk = 128;
-    alignas(64) std::uint32_t list[kChunk + L::kWidth];
-    int length = 0;
-    const auto flush = [&] {
-      L::storeIds(L::setIds(job.count * kStride), list + length);
-      addBlocks(job, own, list, (length + L::kWidth - 1) / L::kWidth, effects, sums);
-      length = 0;
-    };
-    for (int k = 0; k < run_count; ++k) {
-      for (std::uint32_t j = runs[k].begin; j < runs[k].end; ++j) {
-        const Real dx = job.x[j] + runs[k].shift_x - job.x[i];
-        const Real dy = job.y[j] + runs[k].shift_y - job.y[i];
-        const Real dz = job.z[j] + runs[k].shift_z - job.z[i];
-        if (dx * dx + dy * dy + dz * dz >= Real(1)) continue;
-        list[length++] = j * kStride;
-        if (length == kChunk) flush();
-      }
-    }
-    flush();
+    DirectSearch<L, kPeriodic>::run(job, runs, run_count, i, kStride, [&](const Real*, const std::uint32_t* list, int blocks) {
+      addBlocks(job, own, list, blocks, effects, sums);
+    });
     L::storeSums(sums.ax, sums.ay, sums.az, job.acceleration + static_cast<std::size_t>(i) * 4);
   }
 };

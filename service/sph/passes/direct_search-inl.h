@@ -1,0 +1,76 @@
+// The neighbours of one particle straight from the cells, for particles without a list: nothing is left out, only time is lost.
+//
+// Order, distance test and lane of every neighbour are those of the lists, so a sum over the chunks has the bits of a sum over
+// the list: which path a particle takes may depend on the thread count, its result may not.
+#if defined(BLEEDSIM_SPH_PASSES_DIRECT_SEARCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BLEEDSIM_SPH_PASSES_DIRECT_SEARCH_INL_H_
+#undef BLEEDSIM_SPH_PASSES_DIRECT_SEARCH_INL_H_
+#else
+#define BLEEDSIM_SPH_PASSES_DIRECT_SEARCH_INL_H_
+#endif
+
+#include "service/sph/neighbors/grid_view.h"
+#include "service/sph/passes/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bleedsim::sph::HWY_NAMESPACE {
+
+/// (r/h)^2 as every pass computes it: the support's edge must be the same to the bit.
+template <class L>
+HWY_INLINE typename L::V distance2(typename L::V dx, typename L::V dy, typename L::V dz) {
+  return L::mulAdd(dz, dz, L::mulAdd(dy, dy, dx * dx));
+}
+
+template <class L, bool kPeriodic>
+class DirectSearch {
+ public:
+  using Real = typename L::Scalar;
+  using V = typename L::V;
+
+  /// Calls consume(squared distances, record offsets, vectors) with the neighbours of particle i, padded to whole vectors with
+  /// q2 = 1 and the far dummy, record `count`. `job` has x, y, z and count.
+  template <class Job, class Consume>
+  static void run(const Job& job, const NeighborRun<Real>* runs, int run_count, std::uint32_t i, std::uint32_t stride,
+                  const Consume& consume) {
+    alignas(64) Real q2[kChunk + 2 * kWidth];
+    alignas(64) std::uint32_t ids[kChunk + 2 * kWidth];
+    int count = 0;
+    const V own_x = L::set(job.x[i]);
+    const V own_y = L::set(job.y[i]);
+    const V own_z = L::set(job.z[i]);
+    for (int k = 0; k < run_count; ++k) {
+      for (std::uint32_t j = runs[k].begin; j < runs[k].end; j += kWidth) {
+        V x = L::loadUnaligned(job.x + j);
+        V y = L::loadUnaligned(job.y + j);
+        V z = L::loadUnaligned(job.z + j);
+        if constexpr (kPeriodic) {
+          x = x + L::set(runs[k].shift_x);
+          y = y + L::set(runs[k].shift_y);
+          z = z + L::set(runs[k].shift_z);
+        }
+        const V distance = distance2<L>(x - own_x, y - own_y, z - own_z) + L::tail(runs[k].end - j);
+        const auto inside = L::below(distance, L::set(Real(1)));
+        L::compress(distance, inside, q2 + count);
+        L::compress(L::idRow(j * stride, stride), inside, ids + count);
+        count += L::countTrue(inside);
+        if (count < kChunk) continue;
+        consume(q2, ids, kChunk / kWidth);
+        L::store(L::load(q2 + kChunk), q2);
+        L::storeIds(L::loadIds(ids + kChunk), ids);
+        count -= kChunk;
+      }
+    }
+    L::storeUnaligned(L::set(Real(1)), q2 + count);
+    L::storeIds(L::setIds(job.count * stride), ids + count);
+    consume(q2, ids, (count + kWidth - 1) / kWidth);
+  }
+
+ private:
+  static constexpr int kWidth = L::kWidth;
+  static constexpr int kChunk = 128;
+};
+
+}  // namespace bleedsim::sph::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
