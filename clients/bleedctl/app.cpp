@@ -45,6 +45,7 @@ int runBleedctl(int argc, const char* const* argv) {
   app.footer(std::string{"Global options stand before or after the command. Positions are in metres.\n\n"} + kExitCodeText);
   addGlobalOptions(app, context);
   addSessionCommands(app, context);
+  if constexpr (BLEEDSIM_WITH_RECORDING) addRecordingCommands(app, context);
   addWoundCommands(app, context);
   addControlCommands(app, context);
   try {

@@ -49,9 +49,10 @@ std::string checkVec3(const std::string& text);
 std::string checkFinite(const std::string& text);
 
 /// One function for each group of commands; each adds its commands to the program.
-void addSessionCommands(CLI::App& app, Context& context);  // list, status, watch
-void addControlCommands(CLI::App& app, Context& context);  // pause, resume, reset, step, pace, load, shutdown
-void addWoundCommands(CLI::App& app, Context& context);    // wound add, move, set, remove; force
+void addSessionCommands(CLI::App& app, Context& context);    // list, status, watch
+void addControlCommands(CLI::App& app, Context& context);    // pause, resume, reset, step, pace, load, shutdown
+void addWoundCommands(CLI::App& app, Context& context);      // wound add, move, set, remove; force
+void addRecordingCommands(CLI::App& app, Context& context);  // record, info, export
 
 /// Parses, runs and returns the exit code.
 int runBleedctl(int argc, const char* const* argv);

@@ -41,6 +41,7 @@ class Client {
   Result<Session> open(const std::string& name, const SessionOptions& options, std::chrono::nanoseconds timeout);
 
  private:
+  friend class Recorder;
   class Impl;
   explicit Client(std::unique_ptr<Impl> impl);
 

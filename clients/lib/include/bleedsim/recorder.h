@@ -1,0 +1,56 @@
+// Records a session into an MCAP file while it runs: frames, statistics, status, scene and the journal of its inputs.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bleedsim/client.h"
+
+namespace bleedsim::client {
+
+/// When to end, and how densely to record; unset: until close(), every frame.
+struct RecordingLimits {
+  std::optional<double> duration_s{};     ///< simulated time from the first frame
+  std::optional<std::uint64_t> frames{};  ///< recorded frames
+  std::optional<double> rate_hz{};        ///< at most so many frames per simulated second
+};
+
+struct RecordingProgress {
+  std::uint64_t frames = 0;
+  std::uint64_t gaps = 0;       ///< frames lost on the way
+  std::uint64_t malformed = 0;  ///< frames that contradicted themselves, left out
+  std::uint32_t particles = 0;  ///< of the last frame
+  double recorded_s = 0.0;      ///< simulated, over all epochs
+  std::uint64_t bytes = 0;      ///< in the file so far
+  bool done = false;            ///< a limit is reached, the session is gone or the file cannot be written
+  bool session_gone = false;
+};
+
+/// Move-only, thread-safe. Reads reliably with a deep history on a thread of its own.
+class Recorder {
+ public:
+  /// The session has to exist: see Client::find. io: the file cannot be created.
+  static Result<Recorder> start(Client& client, const std::string& session, const std::string& path,
+                                const RecordingLimits& limits);
+  Recorder(Recorder&&) noexcept;
+  Recorder& operator=(Recorder&&) noexcept;
+  /// Closes the file; call close() to learn whether that worked.
+  ~Recorder();
+
+  RecordingProgress progress() const;
+  /// Waits until progress().done; false: not yet.
+  bool waitDone(std::chrono::nanoseconds timeout);
+  /// Ends the recording, writes the index and closes the file. Further calls give the first answer. io: the disk failed.
+  Status close();
+
+ private:
+  class Impl;
+  explicit Recorder(std::unique_ptr<Impl> impl);
+
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace bleedsim::client
