@@ -13,7 +13,7 @@ struct EffectRow {
 };
 
 inline constexpr std::array<EffectRow, 4> kEffects{{
-    {{"gravity", "F of (9)", "paper.md", "none"}, [](const EffectSettings& s) { return s.gravity.has_value(); }},
+    {{"gravity", "F of (9)", "the paper", "none"}, [](const EffectSettings& s) { return s.gravity.has_value(); }},
     {{"pressure", "(16)(19)(20)", "Monaghan 1992; Wendland 1995",
       "variational (16) instead of (17), Wendland C2 for density and gradient, p >= 0"},
      [](const EffectSettings& s) { return s.pressure.has_value(); }},

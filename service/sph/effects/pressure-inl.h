@@ -1,6 +1,6 @@
 // Pressure of weakly compressible blood, in the variational form.
 //
-// Equations (16), (19), (20) of the paper (paper.md); Monaghan 1992.
+// Equations (16), (19), (20) of the paper; Monaghan 1992.
 //   a_i = -m sum_j (p_i/rho_i^2 + p_j/rho_j^2) grad_i W          p = max(0, p0 + c0^2 (rho - rho0))
 // terms: p Pa; rho kg/m^3; m kg; a m/s^2. The record carries K p/rho^2 with K = 210 m/(pi h^4), so a pair is one product.
 // Deviation from the paper: (16) instead of (17), which loses energy; Wendland C2 for both density and gradient; p >= 0, because
