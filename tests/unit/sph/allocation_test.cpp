@@ -1,0 +1,63 @@
+// The contract of World: what runs between frames calls operator new zero times once the world is warm.
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+#include "tests/unit/sph/counting_new.h"
+
+namespace bleedsim::sph {
+namespace {
+
+class Allocation : public testing::TestWithParam<int> {};
+
+TEST_P(Allocation, StepFrameStatsAndHashAllocateNothing) {
+  WorldDescription description = test::woundOnPlane(0.003, 3e-6);
+  FluidBlock pool;
+  pool.lower = {-0.01, -0.01, 0.004};
+  pool.upper = {0.01, 0.01, 0.012};
+  description.fluid_blocks.push_back(pool);
+  description.effects.applied_force.emplace();
+  const auto world = test::makeWorld(description, {.threads = GetParam()});
+  SetForce force;
+  force.key = 1;
+  force.position = {0.0, 0.0, 0.008};
+  force.radius = 0.004;
+  force.force = {0.001, 0.0, 0.0};
+  ASSERT_TRUE(world->apply(force).ok());
+  ASSERT_GT(world->particleCount(), 2000u) << "too few particles for a second thread";
+
+  constexpr std::uint32_t kAll = kFrameVelocity | kFrameDensity | kFrameViscosity;
+  FrameBuffer frame;
+  frame.reserve(description.capacity, kAll);
+  WorldStats stats;
+  std::uint64_t hash = 0;
+  bool stepped = true;
+  const auto turn = [&] {
+    stepped = world->step(1.0).ok() && stepped;
+    world->copyFrame(frame, kAll);
+    world->collectStats(stats);
+    hash ^= world->stateHash();
+  };
+  for (int k = 0; k < 20; ++k) turn();
+  const std::uint64_t emitted_before = stats.injected;
+  const std::uint64_t before = test::allocationCount();
+  for (int k = 0; k < 200; ++k) turn();
+  const std::uint64_t after = test::allocationCount();
+
+  EXPECT_EQ(after, before);
+  EXPECT_TRUE(stepped);
+  EXPECT_GT(stats.injected, emitted_before) << "the wound did not bleed";
+  EXPECT_EQ(stats.counters[static_cast<std::size_t>(Counter::force_without_fluid)], 0u);
+  EXPECT_NE(hash, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, Allocation, testing::Values(1, 2));
+
+TEST(AllocationCounter, Counts) {
+  const std::uint64_t before = test::allocationCount();
+  FrameBuffer frame;
+  frame.reserve(10, kFrameVelocity);
+  EXPECT_GT(test::allocationCount(), before);
+}
+
+}  // namespace
+}  // namespace bleedsim::sph
