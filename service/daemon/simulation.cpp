@@ -148,7 +148,9 @@ void Simulation::advance(TimePoint now) {
   const bool frame_due = frame_clock_.take(time);
   ended_ = options_.duration.has_value() && time >= *options_.duration;
   // Whoever steps by hand, or ends the session at a time, wants to see the state it ends in.
-  if (frame_due || (in_pause && steps_left_ == 0) || ended_) publishFrame(now);
+  const bool last_by_hand = in_pause && steps_left_ == 0;
+  if (frame_due || last_by_hand || ended_) publishFrame(now);
+  if (last_by_hand) showState();
 }
 
 void Simulation::publishFrame(TimePoint now) {

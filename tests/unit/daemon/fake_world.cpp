@@ -1,0 +1,85 @@
+#include "tests/unit/daemon/fake_world.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace bleedsim::daemon {
+namespace {
+
+LoadedScene build(std::shared_ptr<const scene::SceneDescription> scene, std::shared_ptr<FakeLog> log) {
+  auto world = std::make_unique<FakeWorld>(scene->world, std::move(log));
+  FrameMailbox::Buffers frames = FrameMailbox::makeBuffers(scene->world.capacity);
+  return {std::move(scene), std::move(world), std::move(frames)};
+}
+
+}  // namespace
+
+FakeWorld::FakeWorld(sph::WorldDescription description, std::shared_ptr<FakeLog> log)
+    : description_{std::move(description)}, log_{std::move(log)} {}
+
+Result<sph::Applied> FakeWorld::apply(const sph::Command& command) {
+  log_->applied.emplace_back(steps_, command);
+  if (const auto* force = std::get_if<sph::SetForce>(&command)) {
+    if (force->force.norm() > 1000.0) return Status{StatusCode::capacity, "more than the fake world bears: use less"};
+    log_->forces[force->key] = *force;
+    return sph::Applied{};
+  }
+  if (const auto* removed = std::get_if<sph::RemoveForce>(&command)) {
+    log_->forces.erase(removed->key);
+    return sph::Applied{};
+  }
+  if (std::holds_alternative<sph::AddWound>(command)) {
+    wounds_.push_back({static_cast<std::uint32_t>(wounds_.size() + 1), 0.0, 0.0});
+    return sph::Applied{wounds_.back().id};
+  }
+  const auto* remove = std::get_if<sph::RemoveWound>(&command);
+  if (remove != nullptr) {
+    const auto removed = std::erase_if(wounds_, [remove](const sph::WoundState& wound) { return wound.id == remove->wound_id; });
+    if (removed > 0) return sph::Applied{remove->wound_id};
+  }
+  return Status{StatusCode::not_found, "no such wound: use an id of frame_stats"};
+}
+
+Status FakeWorld::step(double dt_limit) {
+  if (!(dt_limit > 0.0)) return {StatusCode::invalid_argument, "dt_limit must be positive"};
+  if (steps_ + 1 == log_->fail_at_step) {
+    faulted_ = true;
+    return {StatusCode::internal, "particle 1 is not finite"};
+  }
+  ++steps_;
+  return {};
+}
+
+void FakeWorld::collectStats(sph::WorldStats& stats) const {
+  stats = {};
+  stats.step = steps_;
+  stats.time = time();
+  stats.dt = kDt;
+  stats.particles = 2;
+}
+
+void FakeWorld::copyFrame(sph::FrameBuffer& frame, std::uint32_t attributes) const {
+  frame.step = steps_;
+  frame.time = time();
+  frame.count = 2;
+  frame.attributes = attributes;
+}
+
+LoadedScene fakeScene(const std::string& name, std::shared_ptr<FakeLog> log) {
+  auto scene = std::make_shared<scene::SceneDescription>();
+  scene->name = name;
+  scene->normalized_text = name;
+  scene->frame_rate = 10.0;
+  scene->world.capacity = 8;
+  return build(std::move(scene), std::move(log));
+}
+
+SceneFactory fakeFactory(std::shared_ptr<FakeLog> log) {
+  return [log](const SceneJob& job) -> Result<LoadedScene> {
+    if (job.known) return build(job.known, log);
+    if (job.text == "broken") return Status{StatusCode::invalid_argument, "domain: missing, give the box"};
+    return fakeScene(job.text, log);
+  };
+}
+
+}  // namespace bleedsim::daemon

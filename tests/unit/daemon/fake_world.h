@@ -1,0 +1,56 @@
+// A world without physics, whose steps a test can predict.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "service/daemon/scene_loader.h"
+#include "service/sph/world.h"
+
+namespace bleedsim::daemon {
+
+/// What a test sees of a fake world.
+struct FakeLog {
+  std::vector<std::pair<std::uint64_t, sph::Command>> applied;  ///< with the steps that were done
+  std::map<sph::ForceKey, sph::SetForce> forces;
+  std::uint64_t fail_at_step = 0;  ///< the step that fails, 0: none
+};
+
+class FakeWorld final : public sph::World {
+ public:
+  static constexpr double kDt = 0.001;  ///< s
+
+  FakeWorld(sph::WorldDescription description, std::shared_ptr<FakeLog> log);
+
+  Result<sph::Applied> apply(const sph::Command& command) override;
+  Status step(double dt_limit) override;
+  std::uint64_t stepCount() const override { return steps_; }
+  double time() const override { return static_cast<double>(steps_) * kDt; }
+  std::uint32_t particleCount() const override { return 2; }
+  void collectStats(sph::WorldStats& stats) const override;
+  std::span<const sph::WoundState> wounds() const override { return wounds_; }
+  void copyFrame(sph::FrameBuffer& frame, std::uint32_t attributes) const override;
+  std::uint64_t stateHash() const override { return steps_ * 1000 + wounds_.size(); }
+  const sph::WorldDescription& description() const override { return description_; }
+  sph::SimdTarget simdTarget() const override { return sph::SimdTarget::scalar; }
+  double speedOfSound() const override { return 3.0; }
+  double particleMass() const override { return 1e-6; }
+  bool faulted() const override { return faulted_; }
+
+ private:
+  sph::WorldDescription description_;
+  std::shared_ptr<FakeLog> log_;
+  std::vector<sph::WoundState> wounds_;
+  std::uint64_t steps_ = 0;
+  bool faulted_ = false;
+};
+
+/// A scene of that name with a fake world; 10 frames per simulated second, instruments expire after 0.1 s.
+LoadedScene fakeScene(const std::string& name, std::shared_ptr<FakeLog> log);
+
+/// Loads any text as a scene of that name; "broken" has problems, a known scene is made anew.
+SceneFactory fakeFactory(std::shared_ptr<FakeLog> log);
+
+}  // namespace bleedsim::daemon

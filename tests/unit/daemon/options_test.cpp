@@ -1,0 +1,75 @@
+#include "service/daemon/options.h"
+
+#include <gtest/gtest.h>
+#include <vector>
+
+namespace bleedsim::daemon {
+namespace {
+
+std::variant<Options, ExitCode> parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "bleedd");
+  return parseOptions(static_cast<int>(arguments.size()), arguments.data());
+}
+
+TEST(Options, HaveDefaults) {
+  const auto parsed = parse({"--scene", "a.textproto"});
+  const auto* options = std::get_if<Options>(&parsed);
+  ASSERT_NE(options, nullptr);
+  EXPECT_EQ(options->scene, "a.textproto");
+  EXPECT_EQ(options->session, "bleed");
+  EXPECT_EQ(options->domain, 0U);
+  EXPECT_EQ(options->pace.mode, dds::PaceMode::real_time);
+  EXPECT_FALSE(options->frame_rate || options->duration);
+  EXPECT_GE(options->world.threads, 1);
+}
+
+TEST(Options, AreRead) {
+  const auto parsed = parse({"--scene", "a", "--session", "OR_1", "--domain", "9", "--interface", "eth7", "--pace", "0.25",
+                             "--frame-rate", "30", "--threads", "2", "--simd", "scalar", "--duration", "5", "--check"});
+  const auto* options = std::get_if<Options>(&parsed);
+  ASSERT_NE(options, nullptr);
+  EXPECT_EQ(options->session, "OR_1");
+  EXPECT_EQ(options->domain, 9U);
+  EXPECT_EQ(options->interface, "eth7");
+  EXPECT_EQ(options->pace.mode, dds::PaceMode::factor);
+  EXPECT_EQ(options->pace.factor, 0.25);
+  EXPECT_EQ(options->frame_rate, 30.0);
+  EXPECT_EQ(options->duration, 5.0);
+  EXPECT_EQ(options->world.threads, 2);
+  EXPECT_EQ(options->world.simd, sph::SimdTarget::scalar);
+  EXPECT_TRUE(options->check);
+}
+
+TEST(Options, WrongOnesAreUsageErrors) {
+  const std::vector<std::vector<const char*>> wrong{
+      {},
+      {"--scene"},
+      {"--scene", "a", "--session", "with space"},
+      {"--scene", "a", "--session", "*"},
+      {"--scene", "a", "--domain", "500"},
+      {"--scene", "a", "--pace", "fast"},
+      {"--scene", "a", "--pace", "0"},
+      {"--scene", "a", "--pace", "nan"},
+      {"--scene", "a", "--frame-rate", "0"},
+      {"--scene", "a", "--threads", "0"},
+      {"--scene", "a", "--threads", "65"},
+      {"--scene", "a", "--simd", "mmx"},
+      {"--scene", "a", "--duration", "-1"},
+      {"--scene", "a", "--unknown"},
+  };
+  for (const std::vector<const char*>& arguments : wrong) {
+    const auto parsed = parse(arguments);
+    const auto* code = std::get_if<ExitCode>(&parsed);
+    ASSERT_NE(code, nullptr) << testing::PrintToString(arguments);
+    EXPECT_EQ(*code, ExitCode::usage);
+  }
+}
+
+TEST(Options, HelpVersionAndEffectsNeedNoScene) {
+  EXPECT_EQ(std::get<ExitCode>(parse({"--help"})), ExitCode::ok);
+  EXPECT_EQ(std::get<ExitCode>(parse({"--version"})), ExitCode::ok);
+  EXPECT_TRUE(std::get<Options>(parse({"--list-effects"})).list_effects);
+}
+
+}  // namespace
+}  // namespace bleedsim::daemon

@@ -1,0 +1,79 @@
+// A simulation of a fake world under a clock that the test moves.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "service/daemon/simulation.h"
+#include "tests/unit/daemon/fake_world.h"
+
+namespace bleedsim::daemon {
+
+class SimulationTest : public testing::Test {
+ protected:
+  void start(SimulationOptions options = {{dds::PaceMode::maximum, 1.0}, {}, {}}) {
+    simulation = std::make_unique<Simulation>(options, fakeScene("first", log), fakeFactory(log), channels, now);
+  }
+
+  /// Ticks once; the reply of the request that was pushed before, if there is one.
+  Simulation::Next tick() { return simulation->tick(now); }
+  void ticks(int count) {
+    for (int i = 0; i < count; ++i) tick();
+  }
+
+  void push(dds::Action action) {
+    dds::DecodedRequest request;
+    request.key = {{dds::Uuid{1}, 1}, ++seq};
+    request.action = std::move(action);
+    bleed_v1_Request original{};
+    original.seq = seq;
+    request.original = std::make_unique<dds::RequestCopy>(original);
+    ASSERT_TRUE(channels.commands.tryPush(std::move(request)));
+  }
+  /// Pushes, ticks, and gives back the answer.
+  dds::Reply ask(dds::Action action) {
+    push(std::move(action));
+    tick();
+    return reply();
+  }
+  dds::Reply reply() {
+    dds::Reply out;
+    EXPECT_TRUE(channels.replies.tryPop(out)) << "no reply to request " << seq;
+    return out;
+  }
+  void loadUntilDone() {
+    while (simulation->state() == dds::SessionState::loading) {
+      channels.commands.wakeup().wait({});
+      tick();
+    }
+  }
+
+  std::vector<dds::JournalEntry> journal() {
+    std::vector<dds::JournalEntry> out;
+    for (dds::JournalEntry entry; channels.journal.tryPop(entry);) out.push_back(std::move(entry));
+    return out;
+  }
+
+  InstrumentInput sample(std::uint64_t number, std::uint64_t writer = 5, std::uint32_t tool = 0) {
+    InstrumentInput input;
+    input.sample.key = {dds::Uuid{9}, tool};
+    input.sample.seq = number;
+    input.sample.client_stamp_ns = static_cast<std::int64_t>(number);
+    input.sample.radius = 0.01;
+    input.sample.force = {0.0, 0.0, static_cast<double>(number)};
+    input.sample.writer = writer;
+    input.received = now;
+    return input;
+  }
+
+  TimePoint now{std::chrono::seconds{100}};
+  std::shared_ptr<FakeLog> log = std::make_shared<FakeLog>();
+  Channels channels;
+  std::unique_ptr<Simulation> simulation;
+  std::uint64_t seq = 0;
+};
+
+}  // namespace bleedsim::daemon

@@ -1,0 +1,112 @@
+#include <gmock/gmock.h>
+
+#include "tests/unit/daemon/simulation_fixture.h"
+
+namespace bleedsim::daemon {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(SimulationTest, ResetStartsANewEpochAtStepZero) {
+  start();
+  ticks(20);
+  const std::uint32_t before = simulation->epoch();
+  ask(sph::AddWound{});
+  journal();
+  push(dds::ResetSession{});
+  tick();
+  EXPECT_EQ(channels.board.read().report.state, dds::SessionState::loading);
+  loadUntilDone();
+  const dds::Reply done = reply();
+  EXPECT_EQ(done.code, dds::ReplyCode::accepted);
+  EXPECT_EQ(done.applied_step, 0U);
+  EXPECT_EQ(done.epoch, before + 1);
+  EXPECT_EQ(simulation->state(), dds::SessionState::running);
+  EXPECT_TRUE(simulation->world().wounds().empty());
+  const auto scene = channels.board.takeScene();
+  ASSERT_NE(scene, nullptr);
+  EXPECT_EQ(scene->epoch, before + 1);
+  const std::vector<dds::JournalEntry> entries = journal();
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_EQ(entries[0].number, 1U) << "numbers start again in each epoch";
+  EXPECT_EQ(entries[0].epoch, before + 1);
+}
+
+TEST_F(SimulationTest, ResetKeepsAPauseAndTheOutput) {
+  start();
+  ask(dds::SetOutput{50.0, sph::kFrameDensity});
+  ask(dds::PauseSession{});
+  push(dds::ResetSession{});
+  tick();
+  loadUntilDone();
+  reply();
+  EXPECT_EQ(simulation->state(), dds::SessionState::paused);
+  EXPECT_EQ(simulation->world().stepCount(), 0U);
+  EXPECT_EQ(channels.board.read().report.frame_rate, 50.0);
+  const dds::FrameSnapshot* frame = channels.frames.load();
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(frame->frame.step, 0U);
+  EXPECT_EQ(frame->frame.attributes, static_cast<std::uint32_t>(sph::kFrameDensity));
+}
+
+TEST_F(SimulationTest, LoadsAnotherScene) {
+  start();
+  ticks(20);
+  ask(dds::SetOutput{50.0, {}});
+  push(dds::LoadScene{"second"});
+  tick();
+  loadUntilDone();
+  EXPECT_EQ(reply().code, dds::ReplyCode::accepted);
+  const auto scene = channels.board.takeScene();
+  ASSERT_NE(scene, nullptr);
+  EXPECT_EQ(scene->name, "second");
+  EXPECT_EQ(scene->frame_rate, 10.0) << "another scene brings its own output";
+}
+
+TEST_F(SimulationTest, ABrokenSceneLeavesTheOldWorldAsItWas) {
+  start();
+  ticks(20);
+  const std::uint64_t hash = simulation->world().stateHash();
+  const std::uint32_t epoch = simulation->epoch();
+  push(dds::LoadScene{"broken"});
+  tick();
+  while (simulation->state() == dds::SessionState::loading) {
+    EXPECT_EQ(simulation->world().stateHash(), hash) << "the world waits while a scene is loaded";
+    channels.commands.wakeup().wait({});
+    tick();
+  }
+  const dds::Reply refused = reply();
+  EXPECT_EQ(refused.code, dds::ReplyCode::scene);
+  EXPECT_THAT(refused.reason, HasSubstr("domain: missing"));
+  EXPECT_EQ(simulation->epoch(), epoch);
+  EXPECT_EQ(simulation->world().stateHash(), hash + 1000) << "and then does its next step";
+  EXPECT_TRUE(journal().empty());
+}
+
+TEST_F(SimulationTest, RefusesWhatTheComingWorldWouldNotKnow) {
+  start();
+  push(dds::ResetSession{});
+  push(sph::AddWound{});
+  push(dds::ResetSession{});
+  push(dds::PauseSession{});
+  push(dds::SetPace{{dds::PaceMode::maximum, 1.0}});
+  tick();
+  for (int i = 0; i < 3; ++i) {
+    const dds::Reply refused = reply();
+    EXPECT_EQ(refused.code, dds::ReplyCode::state);
+    EXPECT_THAT(refused.reason, HasSubstr("being loaded"));
+  }
+  EXPECT_EQ(reply().code, dds::ReplyCode::accepted);
+  loadUntilDone();
+  EXPECT_EQ(reply().key.seq, 1U) << "the reset is answered when it is done";
+}
+
+TEST_F(SimulationTest, ShutsDownWhileAWorldIsBeingBuilt) {
+  start();
+  push(dds::ResetSession{});
+  push(dds::ShutdownSession{});
+  EXPECT_EQ(tick().kind, Simulation::Next::Kind::stop);
+}
+
+}  // namespace
+}  // namespace bleedsim::daemon
