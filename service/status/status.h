@@ -16,9 +16,9 @@ enum class StatusCode {
   wrong_state,       ///< not possible in this state
   unsupported,       ///< known, but not by this build or version
   timed_out,
-  unavailable,       ///< a peer, an interface or a resource is missing or taken
-  io,                ///< the file system or the middleware failed
-  data_loss,         ///< a file is damaged or truncated
+  unavailable,  ///< a peer, an interface or a resource is missing or taken
+  io,           ///< the file system or the middleware failed
+  data_loss,    ///< a file is damaged or truncated
   internal,
 };
 
@@ -42,7 +42,7 @@ class [[nodiscard]] Status {
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : value_{std::move(value)} {}                               // NOLINT: implicit by design
+  Result(T value) : value_{std::move(value)} {}                                  // NOLINT: implicit by design
   Result(Status status) : status_{std::move(status)} { assert(!status_.ok()); }  // NOLINT: implicit by design
 
   bool ok() const { return value_.has_value(); }

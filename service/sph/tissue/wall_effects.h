@@ -56,7 +56,8 @@ class WallEffects {
         const Real y = p.y[i] * constants_.h;
         const Real z = p.z[i] * constants_.h;
         if (!field_.sample(x, y, z, entry.wall)) continue;
-        if (!wounds.empty()) closeBy(Real(1) - static_cast<Real>(wounds.openFraction({x, y, z})), entry.wall);
+        if (!wounds.empty())
+          closeBy(Real(1) - static_cast<Real>(wounds.openFraction(Vec3{double{x}, double{y}, double{z}})), entry.wall);
         entry.particle = i;
         share_[i] = entry.wall.share;
         ++length;
