@@ -1,0 +1,37 @@
+// A bleedd in a process of its own that this test's domain and tag belong to.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bleedsim/client.h"
+#include "tests/integration/client/child_process.h"
+
+namespace bleedsim::client_test {
+
+/// Long enough for a machine that is busy with other tests.
+inline constexpr std::chrono::seconds kPatience{60};
+
+/// Puts this process and its children under a DDS tag of their own, so that tests side by side do not meet.
+void isolate();
+
+class RunningDaemon {
+ public:
+  /// Starts `program` on the scene and waits until its session runs. Null: it did not; the test has failed.
+  static std::unique_ptr<RunningDaemon> start(const std::string& program, const std::string& scene, const std::string& session,
+                                              std::uint32_t domain);
+
+  /// The session as a client of this process sees it.
+  client::Session& session() { return *session_; }
+  ChildProcess& process() { return process_; }
+
+ private:
+  explicit RunningDaemon(const std::vector<std::string>& command) : process_{command, true} {}
+
+  ChildProcess process_;
+  std::optional<client::Client> client_;
+  std::optional<client::Session> session_;
+};
+
+}  // namespace bleedsim::client_test
