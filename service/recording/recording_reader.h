@@ -51,6 +51,10 @@ class RecordingReader {
   /// Metadata records of the file by name; empty when the writer never came to write them.
   const std::map<std::string, std::map<std::string, std::string>>& metadata() const;
 
+  /// Compares the checksum of the whole data section; reads the file once. data_loss when it is another. A file that was cut off
+  /// has none and passes.
+  ::bleedsim::Status verify() const;
+
   /// The next message of the selected topics; false at the end. data_loss: a checksum or a length is wrong.
   Result<bool> next(RecordedMessage& out);
   /// Only these topics from now on; starts again at the first message.

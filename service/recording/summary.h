@@ -40,7 +40,7 @@ struct RecordingSummary {
   std::string simd_target;
   std::string precision;
   std::uint64_t file_bytes = 0;
-  /// First and last seq of each run of missing frames, at most kMaxGapRanges.
+  /// First and last seq of each run of missing frames, the first 1000 of them; empty where frames were skipped.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> gap_ranges;
 };
 

@@ -1,0 +1,211 @@
+#include "service/recording/recording_writer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/core.h>
+#include <utility>
+
+#include "service/recording/convert.h"
+#include "service/recording/mcap_writer.h"
+#include "service/recording/schemas.h"
+#include "service/recording/seq_tracker.h"
+#include "service/recording/text_check.h"
+
+namespace bleedsim::recording {
+namespace {
+
+constexpr std::size_t kMaxNotes = 64;
+constexpr int kMaxCompressionLevel = 19;
+constexpr std::size_t kMinChunkBytes = std::size_t{1} << 10;
+constexpr std::size_t kMaxChunkBytes = std::size_t{64} << 20;
+
+::bleedsim::Status check(const WriterOptions& options) {
+  if (options.compression_level < 1 || options.compression_level > kMaxCompressionLevel) {
+    return {StatusCode::invalid_argument,
+            fmt::format("compression level {} is not within 1 to {}", options.compression_level, kMaxCompressionLevel)};
+  }
+  if (options.chunk_bytes < kMinChunkBytes || options.chunk_bytes > kMaxChunkBytes) {
+    return {StatusCode::invalid_argument,
+            fmt::format("a chunk size of {} bytes is not within {} to {}", options.chunk_bytes, kMinChunkBytes, kMaxChunkBytes)};
+  }
+  if (options.notes.size() > kMaxNotes) {
+    return {StatusCode::invalid_argument, fmt::format("{} notes are more than {}", options.notes.size(), kMaxNotes)};
+  }
+  for (const auto& [key, value] : options.notes) {
+    if (!isUtf8(key) || !isUtf8(value)) return {StatusCode::invalid_argument, "a note is not UTF-8 text"};
+  }
+  return {};
+}
+
+SessionKey keyOf(const bleed_v1_Uuid& session) { return {reinterpret_cast<const char*>(session), sizeof(bleed_v1_Uuid)}; }
+
+}  // namespace
+
+struct RecordingWriter::Impl {
+  explicit Impl(mcap::McapWriter file) : writer{std::move(file)} {}
+
+  template <class Sample, class Message>
+  ::bleedsim::Status store(Topic topic, const Sample& sample, Message& message, std::uint64_t log_time_ns,
+                           std::uint64_t publish_time_ns);
+  ::bleedsim::Status finish();
+
+  mcap::McapWriter writer;
+  WriterOptions options;
+  WriterCounts counts;
+  FrameTracker frames;
+  ReplayCheck replay;
+  // Kept for their memory.
+  Frame frame;
+  FrameStats stats;
+  std::string bytes;
+  std::uint64_t last_time_ns = 0;
+  std::map<std::string, std::string> origin;  ///< of the first scene
+  bool closed = false;
+  ::bleedsim::Status closing;
+};
+
+template <class Sample, class Message>
+::bleedsim::Status RecordingWriter::Impl::store(Topic topic, const Sample& sample, Message& message, std::uint64_t log_time_ns,
+                                                std::uint64_t publish_time_ns) {
+  if (closed) return {StatusCode::wrong_state, "the recording is closed"};
+  ::bleedsim::Status status = toRecording(sample, message);
+  if (status && message.ByteSizeLong() > mcap::kMaxMessageBytes) {
+    status = {StatusCode::capacity, fmt::format("a sample of {} bytes is larger than {} bytes; use fewer particles or attributes",
+                                                message.ByteSizeLong(), mcap::kMaxMessageBytes)};
+  }
+  if (!status) {
+    ++counts.refused;
+    return status;
+  }
+  if (!message.SerializeToString(&bytes)) return {StatusCode::internal, "a message could not be serialised"};
+  last_time_ns = std::max(last_time_ns, log_time_ns);
+  status = writer.write(channelIdOf(topic), last_time_ns, publish_time_ns == 0 ? last_time_ns : publish_time_ns, bytes);
+  counts.bytes = writer.bytes();
+  return status;
+}
+
+::bleedsim::Status RecordingWriter::Impl::finish() {
+  std::string ranges;
+  for (const auto& [first, last] : frames.ranges()) ranges += fmt::format("{}{}-{}", ranges.empty() ? "" : " ", first, last);
+  const std::string reason = replay.reason();
+  mcap::Metadata record{"bleedsim.recording", origin};
+  record.entries["frames"] = std::to_string(counts.frames);
+  record.entries["gaps"] = std::to_string(counts.gaps);
+  record.entries["gap_ranges"] = ranges;
+  record.entries["skipped"] = std::to_string(counts.skipped);
+  record.entries["refused"] = std::to_string(counts.refused);
+  record.entries["journal_entries"] = std::to_string(counts.journal_entries);
+  record.entries["journal_gaps"] = std::to_string(counts.journal_gaps);
+  record.entries["replayable"] = reason.empty() ? "true" : "false";
+  record.entries["reason"] = reason;
+  ::bleedsim::Status status = writer.write(record);
+  if (status && !options.notes.empty()) status = writer.write(mcap::Metadata{"bleedsim.notes", options.notes});
+  // Closes the file even after an error, which it then reports again.
+  ::bleedsim::Status closed_status = writer.close();
+  counts.bytes = writer.bytes();
+  return status ? closed_status : status;
+}
+
+Result<RecordingWriter> RecordingWriter::open(const std::filesystem::path& path, const WriterOptions& options) {
+  if (::bleedsim::Status status = check(options); !status) return status;
+  const mcap::ChunkOptions chunks{options.compression_level, options.chunk_bytes, options.chunk_span_ns};
+  Result<mcap::McapWriter> file = mcap::McapWriter::open(path, chunks, recordingSchemas(), recordingChannels());
+  if (!file) return file.status();
+  auto impl = std::make_unique<Impl>(std::move(*file));
+  impl->options = options;
+  impl->counts.bytes = impl->writer.bytes();
+  return RecordingWriter{std::move(impl)};
+}
+
+RecordingWriter::RecordingWriter(std::unique_ptr<Impl> impl) : impl_{std::move(impl)} {}
+RecordingWriter::RecordingWriter(RecordingWriter&&) noexcept = default;
+
+RecordingWriter& RecordingWriter::operator=(RecordingWriter&& other) noexcept {
+  if (this != &other) {
+    if (impl_) static_cast<void>(close());
+    impl_ = std::move(other.impl_);
+  }
+  return *this;
+}
+
+RecordingWriter::~RecordingWriter() {
+  if (impl_) static_cast<void>(close());
+}
+
+::bleedsim::Status RecordingWriter::append(const bleed_v1_Frame& sample, std::uint64_t log_time_ns) {
+  const auto published = static_cast<std::uint64_t>(std::max<std::int64_t>(sample.realtime_stamp_ns, 0));
+  ::bleedsim::Status status = impl_->store(Topic::frame, sample, impl_->frame, log_time_ns, published);
+  if (status) {
+    ++impl_->counts.frames;
+    impl_->frames.add(keyOf(sample.session), sample.epoch, sample.seq);
+    impl_->counts.gaps = impl_->frames.missing();
+    impl_->replay.addFrame(keyOf(sample.session), sample.epoch);
+  }
+  return status;
+}
+
+::bleedsim::Status RecordingWriter::append(const bleed_v1_FrameStats& sample, std::uint64_t log_time_ns) {
+  ::bleedsim::Status status = impl_->store(Topic::frame_stats, sample, impl_->stats, log_time_ns, 0);
+  if (status) ++impl_->counts.frame_stats;
+  return status;
+}
+
+::bleedsim::Status RecordingWriter::append(const bleed_v1_Status& sample, std::uint64_t log_time_ns) {
+  recording::Status message;
+  const auto published = static_cast<std::uint64_t>(std::max<std::int64_t>(sample.realtime_stamp_ns, 0));
+  ::bleedsim::Status status = impl_->store(Topic::status, sample, message, log_time_ns, published);
+  if (status) ++impl_->counts.statuses;
+  return status;
+}
+
+::bleedsim::Status RecordingWriter::append(const bleed_v1_Scene& sample, std::uint64_t log_time_ns) {
+  Scene message;
+  ::bleedsim::Status status = impl_->store(Topic::scene, sample, message, log_time_ns, 0);
+  if (status) {
+    ++impl_->counts.scenes;
+    impl_->replay.addScene(keyOf(sample.session), sample.epoch);
+    if (impl_->origin.empty()) {
+      impl_->origin = {{"session_name", message.session_name()}, {"scene_name", message.scene_name()},
+                       {"version", message.version()},           {"build_id", message.build_id()},
+                       {"simd_target", message.simd_target()},   {"precision", message.precision()}};
+    }
+  }
+  return status;
+}
+
+::bleedsim::Status RecordingWriter::append(const bleed_v1_Journal& sample, std::uint64_t log_time_ns) {
+  Journal message;
+  ::bleedsim::Status status = impl_->store(Topic::journal, sample, message, log_time_ns, 0);
+  if (status) {
+    ++impl_->counts.journal_entries;
+    impl_->replay.addJournal(keyOf(sample.session), sample.epoch, sample.number);
+    impl_->counts.journal_gaps = impl_->replay.journalGaps();
+  } else {
+    impl_->replay.loseJournal(keyOf(sample.session), sample.epoch);
+  }
+  return status;
+}
+
+void RecordingWriter::skip(const bleed_v1_Frame& sample) {
+  ++impl_->counts.skipped;
+  impl_->frames.add(keyOf(sample.session), sample.epoch, sample.seq);
+  impl_->counts.gaps = impl_->frames.missing();
+}
+
+::bleedsim::Status RecordingWriter::close() {
+  if (!impl_->closed) {
+    impl_->closing = impl_->finish();
+    impl_->closed = true;
+  }
+  return impl_->closing;
+}
+
+const WriterCounts& RecordingWriter::counts() const { return impl_->counts; }
+
+std::uint64_t RecordingWriter::now() {
+  const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(
+      std::max<std::int64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count(), 0));
+}
+
+}  // namespace bleedsim::recording

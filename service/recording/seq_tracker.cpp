@@ -1,0 +1,80 @@
+#include "service/recording/seq_tracker.h"
+
+#include <fmt/core.h>
+
+namespace bleedsim::recording {
+
+void FrameTracker::add(const SessionKey& session, std::uint32_t epoch, std::uint64_t seq) {
+  const auto found = last_.find(session);
+  if (found == last_.end()) {
+    if (last_.size() < kMaxSessions) last_[session] = {epoch, seq};
+    return;
+  }
+  Last& last = found->second;
+  if (seq > last.seq) {
+    const std::uint64_t lost = seq - last.seq - 1;
+    missing_ += lost;
+    if (lost > 0 && ranges_.size() < kMaxRanges) ranges_.emplace_back(last.seq + 1, seq - 1);
+    last = {epoch, seq};
+  } else if (epoch != last.epoch) {
+    last = {epoch, seq};
+  }
+}
+
+void ReplayCheck::addFrame(const SessionKey& session, std::uint32_t epoch) {
+  if (frames_.size() < kMaxEpochs) {
+    frames_.emplace(session, epoch);
+  } else if (!frames_.contains({session, epoch})) {
+    overflow_ = true;
+  }
+}
+
+void ReplayCheck::addScene(const SessionKey& session, std::uint32_t epoch) {
+  if (scenes_.size() < kMaxEpochs) scenes_.emplace(session, epoch);
+}
+
+void ReplayCheck::addJournal(const SessionKey& session, std::uint32_t epoch, std::uint64_t number) {
+  const Epoch key{session, epoch};
+  if (journals_.size() >= kMaxEpochs && !journals_.contains(key)) {
+    overflow_ = true;
+    return;
+  }
+  Journal& journal = journals_[key];
+  if (number <= journal.last) return;
+  const std::uint64_t lost = number - journal.last - 1;
+  journal.missing += lost;
+  journal_gaps_ += lost;
+  journal.last = number;
+}
+
+void ReplayCheck::loseJournal(const SessionKey& session, std::uint32_t epoch) {
+  // The next entry's number shows the loss again, so only the epoch is marked here.
+  if (journals_.size() >= kMaxEpochs) {
+    overflow_ = true;
+    return;
+  }
+  ++journals_[{session, epoch}].missing;
+}
+
+bool ReplayCheck::hasScene(const Epoch& epoch) const {
+  for (const Epoch& scene : scenes_) {
+    if (scene.first == epoch.first && scene.second <= epoch.second) return true;
+  }
+  return false;
+}
+
+std::string ReplayCheck::reason() const {
+  if (frames_.empty()) return "it holds no frames";
+  if (frames_.begin()->first != frames_.rbegin()->first) return "it holds frames of more than one session";
+  if (overflow_) return fmt::format("it holds more than {} epochs", kMaxEpochs);
+  for (const Epoch& epoch : frames_) {
+    if (!hasScene(epoch)) return fmt::format("the scene of epoch {} is missing", epoch.second);
+    const auto journal = journals_.find(epoch);
+    if (journal != journals_.end() && journal->second.missing > 0) {
+      return fmt::format("{} journal entries of epoch {} are missing", journal->second.missing, epoch.second);
+    }
+  }
+  return {};
+}
+
+}  // namespace bleedsim::recording
