@@ -1,0 +1,110 @@
+// The other end of a session in the test's own process: it hears everything and asks with raw samples, bad ones included.
+#pragma once
+
+#include <functional>
+#include <gtest/gtest.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/transport/clock.h"
+#include "service/transport/uuid.h"
+#include "service/transport/wait_set.h"
+#include "tests/integration/service/child.h"
+
+namespace bleedsim::service_test {
+
+using transport::Reading;
+
+/// Domains 40 to 59, one for each number: tests that run side by side do not hear each other, also because of the tag.
+class ServiceTest : public testing::Test {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  /// Starts bleedd on the small scene of these tests; `more` are further arguments.
+  std::vector<std::string> daemonCommand(const std::string& session, const std::vector<std::string>& more = {}) const;
+  std::string sceneFile() const { return scene_file_; }
+  std::uint32_t domain() const { return domain_; }
+
+  std::uint32_t domain_ = 0;
+  std::string scene_file_;
+};
+
+/// Text of the small scene: a wound in flat tissue at 1000 steps a second or so.
+std::string smallScene(double instrument_expiry_s = 0.1);
+
+struct FrameHead {
+  transport::Uuid session{};
+  std::uint64_t seq = 0;
+  std::uint64_t step = 0;
+  std::uint32_t epoch = 0;
+  std::uint32_t count = 0;
+  std::size_t payload = 0;
+};
+struct StatsHead {
+  std::uint64_t seq = 0;
+  std::uint64_t step = 0;
+  std::uint32_t epoch = 0;
+  std::uint64_t state_hash = 0;
+  std::size_t wounds = 0;
+  std::size_t instruments = 0;
+  std::uint64_t overwritten = 0;
+};
+struct StatusHead {
+  transport::Uuid session{};
+  std::string name;
+  std::uint32_t state = 0;
+  std::uint64_t step = 0;
+  std::uint64_t heartbeat = 0;
+  std::int32_t pid = 0;
+  std::vector<std::pair<std::string, std::uint64_t>> counters;
+
+  std::uint64_t counter(const std::string& counter_name) const;
+};
+
+class Probe {
+ public:
+  Probe(std::uint32_t domain, std::string session, Reading frames = Reading::recorder);
+
+  using Body = std::function<void(bleed_v1_RequestBody&)>;
+  /// A body of that case; `fill` may set its members.
+  static bleed_v1_RequestBody body(std::uint32_t kind, const Body& fill = {});
+
+  /// Sends until there is an answer; every sending is the same request. Fails the test when none comes.
+  bleed_v1_Reply ask(const bleed_v1_RequestBody& body);
+  bleed_v1_Reply askAs(std::uint64_t seq, const bleed_v1_RequestBody& body);
+  bleed_v1_Reply ask(std::uint32_t kind, const Body& fill = {}) { return ask(body(kind, fill)); }
+
+  void sendInstrument(std::uint64_t seq);
+  void dropInstrumentWriter() { instruments_.reset(); }
+
+  /// Waits for one that fits; fails the test when none comes.
+  FrameHead frame(const std::function<bool(const FrameHead&)>& fits = {});
+  StatsHead stats(const std::function<bool(const StatsHead&)>& fits = {});
+  StatusHead status(const std::function<bool(const StatusHead&)>& fits = {});
+  bleed_v1_Journal journal(const std::function<bool(const bleed_v1_Journal&)>& fits);
+  std::string sceneName();
+
+  /// Hash of the state after `count` steps from a reset of the paused session.
+  std::uint64_t hashAfterReset(std::uint32_t count, const std::function<void()>& meanwhile);
+
+ private:
+  template <class T>
+  bool next(transport::Reader<T>& reader, const std::function<bool(const T&)>& use);
+
+  transport::Participant participant_;
+  transport::Uuid client_ = transport::drawUuid();
+  std::uint64_t run_ = transport::drawRun();
+  std::uint64_t seq_ = 0;
+  transport::Reader<bleed_v1_Frame> frames_;
+  transport::Reader<bleed_v1_FrameStats> stats_;
+  transport::Reader<bleed_v1_Status> statuses_;
+  transport::Reader<bleed_v1_Scene> scenes_;
+  transport::Reader<bleed_v1_Reply> replies_;
+  transport::Reader<bleed_v1_Journal> journal_;
+  transport::Writer<bleed_v1_Request> requests_;
+  std::optional<transport::Writer<bleed_v1_Instrument>> instruments_;
+};
+
+}  // namespace bleedsim::service_test

@@ -1,0 +1,91 @@
+// How bleedd starts and ends.
+#include <array>
+#include <csignal>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <poll.h>
+
+#include "tests/integration/service/probe.h"
+
+namespace bleedsim::service_test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(ServiceTest, ASecondDaemonOfTheSameSessionRefusesToStart) {
+  Child first{daemonCommand("one")};
+  Probe probe{domain(), "one"};
+  probe.status();
+  Child second{daemonCommand("one")};
+  EXPECT_EQ(second.wait(), 3);
+  EXPECT_THAT(second.output(), testing::AllOf(HasSubstr("session 'one'"), HasSubstr(std::to_string(first.pid()))));
+  const std::uint64_t step = probe.frame().step;
+  probe.frame([&](const FrameHead& frame) { return frame.step > step; });
+}
+
+TEST_F(ServiceTest, OfTwoDaemonsThatStartTogetherExactlyOneStays) {
+  Child left{daemonCommand("both")};
+  Child right{daemonCommand("both")};
+  std::array<pollfd, 2> ends{{{left.endDescriptor(), POLLIN, 0}, {right.endDescriptor(), POLLIN, 0}}};
+  ASSERT_GT(poll(ends.data(), ends.size(), 60'000), 0) << "both stayed";
+  Child& loser = ends[0].revents != 0 ? left : right;
+  Child& winner = ends[0].revents != 0 ? right : left;
+  EXPECT_EQ(loser.wait(), 3);
+  Probe probe{domain(), "both"};
+  const StatusHead status = probe.status([](const StatusHead& head) { return head.heartbeat > 12; });
+  EXPECT_EQ(status.pid, winner.pid());
+  EXPECT_EQ(status.state, static_cast<std::uint32_t>(bleed_v1_STATE_RUNNING));
+}
+
+class SignalTest : public ServiceTest, public testing::WithParamInterface<int> {};
+
+TEST_P(SignalTest, EndsTheDaemonCleanly) {
+  Child daemon{daemonCommand("end")};
+  Probe probe{domain(), "end"};
+  probe.frame();
+  daemon.send(GetParam());
+  EXPECT_EQ(daemon.wait(), 0);
+  probe.status([](const StatusHead& status) { return status.state == bleed_v1_STATE_STOPPED; });
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, SignalTest, testing::Values(SIGINT, SIGTERM));
+
+TEST_F(ServiceTest, AShutdownRequestIsAnsweredAndEndsTheDaemon) {
+  Child daemon{daemonCommand("down")};
+  Probe probe{domain(), "down"};
+  EXPECT_EQ(probe.ask(bleed_v1_REQUEST_SHUTDOWN).code, static_cast<std::uint32_t>(bleed_v1_REPLY_ACCEPTED));
+  EXPECT_EQ(daemon.wait(), 0);
+}
+
+TEST_F(ServiceTest, EndsAfterItsDuration) {
+  Child daemon{daemonCommand("short", {"--pace", "max", "--duration", "0.2"})};
+  EXPECT_EQ(daemon.wait(), 0);
+}
+
+TEST_F(ServiceTest, AMissingInterfaceIsNamedWithTheExistingOnes) {
+  Child daemon{daemonCommand("none", {"--interface", "nosuch9"})};
+  EXPECT_EQ(daemon.wait(), 1);
+  EXPECT_THAT(daemon.output(), testing::AllOf(HasSubstr("nosuch9"), HasSubstr("lo")));
+}
+
+TEST_F(ServiceTest, ABrokenSceneIsAUsageError) {
+  std::ofstream{sceneFile()} << "name: 'broken' wounds { flow_ml_per_s: nan }";
+  Child daemon{daemonCommand("broken")};
+  EXPECT_EQ(daemon.wait(), 2);
+  EXPECT_THAT(daemon.output(), HasSubstr("flow_ml_per_s"));
+}
+
+TEST_F(ServiceTest, ChecksASceneWithoutRunningIt) {
+  Child daemon{daemonCommand("check", {"--check"})};
+  EXPECT_EQ(daemon.wait(), 0);
+  EXPECT_THAT(daemon.output(), HasSubstr("valid"));
+}
+
+TEST_F(ServiceTest, ListsTheEffectsOfAScene) {
+  Child daemon{daemonCommand("list", {"--list-effects"})};
+  EXPECT_EQ(daemon.wait(), 0);
+  EXPECT_THAT(daemon.output(), testing::AllOf(HasSubstr("viscosity"), HasSubstr("on ")));
+}
+
+}  // namespace
+}  // namespace bleedsim::service_test
