@@ -1,0 +1,179 @@
+// Every SIMD target is the scalar twin to rounding: one step of whole worlds from the same input.
+#include <algorithm>
+#include <functional>
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+
+namespace bleedsim::sph {
+namespace {
+
+struct Case {
+  const char* name;
+  std::function<WorldDescription()> describe;
+};
+
+WorldDescription harmonic(WorldDescription description) {
+  FluidBlock second = description.fluid_blocks.front();
+  FluidBlock& first = description.fluid_blocks.front();
+  const double middle = first.lower.x() + 0.5 * (first.upper.x() - first.lower.x());
+  first.upper.x() = middle;
+  second.lower.x() = middle;
+  second.viscosity = 0.02;
+  second.velocity = {0.05, 0.2, -0.1};
+  description.fluid_blocks.push_back(second);
+  return description;
+}
+
+WorldDescription bleeding() {
+  WorldDescription description = test::woundOnPlane(0.003, 6e-6);
+  FluidBlock pool;
+  pool.lower = {-0.008, -0.008, 0.0};
+  pool.upper = {0.008, 0.008, 0.006};
+  pool.jitter = 0.2;
+  description.fluid_blocks.push_back(pool);
+  return description;
+}
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all{
+      {"FreeBlock",
+       [] {
+         return test::freeBlock({11, 9, 10}, 0.3);
+       }},
+      {"Periodic",
+       [] {
+         return test::periodicBox({10, 8, 9}, 0.3);
+       }},
+      {"Harmonic",
+       [] {
+         return harmonic(test::freeBlock({12, 9, 9}, 0.3));
+       }},
+      {"HarmonicPeriodic",
+       [] {
+         return harmonic(test::periodicBox({12, 8, 8}, 0.3));
+       }},
+      {"ClosedBox",
+       [] {
+         return test::closedBox({9, 8, 10}, 0.2);
+       }},
+      {"Bleeding", bleeding},
+  };
+  return all;
+}
+
+/// Frame storage sorted by id: targets may sort particles at a cell's border differently.
+std::vector<std::size_t> orderById(const FrameBuffer& frame) {
+  std::vector<std::size_t> order(frame.count);
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return frame.id[a] < frame.id[b]; });
+  return order;
+}
+
+struct Differences {
+  double position = 0.0;  // m
+  double velocity = 0.0;  // m/s
+  double density = 0.0;   // kg/m^3
+};
+
+/// Largest difference of each field, as a part of the field's largest magnitude.
+Differences compare(const FrameBuffer& a, const FrameBuffer& b) {
+  const std::vector<std::size_t> of_a = orderById(a);
+  const std::vector<std::size_t> of_b = orderById(b);
+  Differences apart;
+  Differences largest;
+  for (std::size_t k = 0; k < of_a.size(); ++k) {
+    const std::size_t i = of_a[k];
+    const std::size_t j = of_b[k];
+    EXPECT_EQ(a.id[i], b.id[j]);
+    apart.position = std::max(apart.position, (test::positionOf(a, i) - test::positionOf(b, j)).norm());
+    apart.velocity = std::max(apart.velocity, (test::velocityOf(a, i) - test::velocityOf(b, j)).norm());
+    apart.density = std::max(apart.density, std::abs(double{a.density[i]} - double{b.density[j]}));
+    largest.position = std::max(largest.position, test::positionOf(a, i).norm());
+    largest.velocity = std::max(largest.velocity, test::velocityOf(a, i).norm());
+    largest.density = std::max(largest.density, double{a.density[i]});
+  }
+  return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density};
+}
+
+class SimdWorld : public testing::TestWithParam<Case> {};
+
+TEST_P(SimdWorld, OneStepIsThatOfTheScalarTwin) {
+  const WorldDescription description = GetParam().describe();
+  const auto scalar = test::makeWorld(description, {.simd = SimdTarget::scalar});
+  ASSERT_TRUE(scalar->step(1.0).ok());
+  const FrameBuffer expected = test::frameOf(*scalar);
+  ASSERT_GT(expected.count, 500u);
+  ASSERT_GT(test::statsOf(*scalar).max_speed, 1e-4) << "nothing moves";
+  for (const SimdTarget target : availableSimdTargets()) {
+    const auto world = test::makeWorld(description, {.simd = target});
+    ASSERT_EQ(world->simdTarget(), target);
+    ASSERT_TRUE(world->step(1.0).ok());
+    EXPECT_NEAR(world->time(), scalar->time(), 1e-6 * scalar->time());
+    const FrameBuffer frame = test::frameOf(*world);
+    ASSERT_EQ(frame.count, expected.count);
+    const Differences apart = compare(frame, expected);
+    EXPECT_LT(apart.position, 1e-5) << simdTargetName(target);
+    EXPECT_LT(apart.velocity, 1e-5) << simdTargetName(target);
+    EXPECT_LT(apart.density, 1e-5) << simdTargetName(target);
+  }
+}
+
+TEST_P(SimdWorld, SinglePrecisionFollowsTheReference) {
+  const WorldDescription description = GetParam().describe();
+  const auto reference = test::makeWorld(description, {.precision = Precision::float64});
+  EXPECT_EQ(reference->simdTarget(), SimdTarget::scalar);
+  ASSERT_TRUE(reference->step(1.0).ok());
+  const auto world = test::makeWorld(description);
+  EXPECT_EQ(world->simdTarget(), availableSimdTargets().front());
+  ASSERT_TRUE(world->step(1.0).ok());
+  ASSERT_EQ(world->particleCount(), reference->particleCount());
+  const Differences apart = compare(test::frameOf(*world), test::frameOf(*reference));
+  EXPECT_LT(apart.position, 1e-5);
+  EXPECT_LT(apart.velocity, 1e-4);
+  EXPECT_LT(apart.density, 1e-5);
+}
+
+TEST_P(SimdWorld, ThreadsDoNotChangeABit) {
+  const WorldDescription description = GetParam().describe();
+  const auto one = test::makeWorld(description, {.threads = 1});
+  const auto three = test::makeWorld(description, {.threads = 3});
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_TRUE(one->step(1.0).ok());
+    ASSERT_TRUE(three->step(1.0).ok());
+    ASSERT_EQ(one->stateHash(), three->stateHash()) << "step " << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SimdWorld, testing::ValuesIn(cases()), [](const auto& scene) { return scene.param.name; });
+
+TEST(SimdTargets, NamesAreReadBack) {
+  for (const SimdTarget target : {SimdTarget::automatic, SimdTarget::scalar, SimdTarget::avx2, SimdTarget::avx512}) {
+    const Result<SimdTarget> read = parseSimdTarget(simdTargetName(target));
+    ASSERT_TRUE(read.ok());
+    EXPECT_EQ(*read, target);
+  }
+  EXPECT_EQ(simdTargetName(SimdTarget::automatic), "auto");
+}
+
+TEST(SimdTargets, AnUnknownNameIsAnsweredWithTheKnownOnes) {
+  for (const char* name : {"", "AVX2", "avx2 ", "automatic", "neon"}) {
+    const Result<SimdTarget> read = parseSimdTarget(name);
+    ASSERT_FALSE(read.ok()) << name;
+    EXPECT_EQ(read.status().code(), StatusCode::not_found);
+    for (const char* known : {"auto", "scalar", "avx2", "avx512"}) {
+      EXPECT_NE(read.status().message().find(known), std::string::npos) << known;
+    }
+  }
+}
+
+TEST(SimdTargets, ScalarIsAlwaysThereAndLast) {
+  const std::vector<SimdTarget> targets = availableSimdTargets();
+  ASSERT_FALSE(targets.empty());
+  EXPECT_EQ(targets.back(), SimdTarget::scalar);
+  EXPECT_EQ(std::count(targets.begin(), targets.end(), SimdTarget::automatic), 0);
+  EXPECT_TRUE(std::is_sorted(targets.rbegin(), targets.rend())) << "best first";
+}
+
+}  // namespace
+}  // namespace bleedsim::sph
