@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint32_t kMostParticles = 2'000'000;
 constexpr int kMostThreads = 64;
 constexpr double kMostCells = 16'777'216.0;
+constexpr std::uint32_t kMostForceSources = 65'536;
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::count)> kStageNames{
     "emit", "move", "neighbors", "tissue", "density", "force", "body", "integrate"};
@@ -23,6 +24,33 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "inlet_withdrawn", "neighbor_overflow",    "force_without_fluid", "force_expired"};
 
 Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
+
+bool isFiniteNotNegative(double value) { return value >= 0.0 && std::isfinite(value); }
+
+Status checkEffects(const EffectSettings& effects) {
+  if (effects.gravity && !effects.gravity->acceleration.allFinite()) return invalid("gravity must be three finite numbers");
+  if (effects.pressure && !std::isfinite(effects.pressure->background_pressure)) {
+    return invalid("the background pressure must be finite");
+  }
+  if (effects.viscosity && !isFiniteNotNegative(effects.viscosity->viscosity)) {
+    return invalid("viscosity must be finite and not negative");
+  }
+  if (effects.applied_force && effects.applied_force->max_sources > kMostForceSources) {
+    return invalid("applied_force.max_sources is " + std::to_string(effects.applied_force->max_sources) + "; use at most " +
+                   std::to_string(kMostForceSources));
+  }
+  return {};
+}
+
+Status checkBlock(const FluidBlock& block) {
+  if (!block.lower.allFinite() || !block.upper.allFinite()) return invalid("a fluid block's corners must be finite");
+  if (!block.velocity.allFinite()) return invalid("a fluid block's velocity must be finite");
+  if (!isFiniteNotNegative(block.jitter)) return invalid("a fluid block's jitter must be finite and not negative");
+  if (block.viscosity && !isFiniteNotNegative(*block.viscosity)) {
+    return invalid("a fluid block's viscosity must be finite and not negative");
+  }
+  return {};
+}
 
 /// What the arrays and the grid need; the scene layer gives the finer messages.
 Status checkDescription(const WorldDescription& d, const WorldOptions& options) {
@@ -36,6 +64,10 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   if (!(d.support_ratio >= 1.5) || !(d.support_ratio <= 3.5)) return invalid("the support ratio h/dx must be 1.5 to 3.5");
   if (!(d.rest_density > 0.0) || !std::isfinite(d.rest_density)) return invalid("the rest density must be greater than 0 kg/m^3");
   if (!(d.max_dt > 0.0)) return invalid("the largest time step must be greater than 0 s");
+  if (!isFiniteNotNegative(d.compressibility.max_fall_or_depth)) {
+    return invalid("the largest fall or depth must be finite and not negative");
+  }
+  if (Status status = checkEffects(d.effects); !status.ok()) return status;
   const double h = d.supportRadius();
   const double c0 = speedOfSound(d);
   if (!(c0 > 0.0) || !std::isfinite(c0)) return invalid("the speed of sound must be greater than 0 m/s: set a design speed");
@@ -53,10 +85,9 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
                    " cells of one support radius, at most 16777216 are possible; use a "
                    "smaller domain or a larger spacing");
   }
-  if (d.effects.viscosity && !(d.effects.viscosity->viscosity >= 0.0)) return invalid("viscosity must not be negative");
   std::uint64_t seeded = 0;
   for (const FluidBlock& block : d.fluid_blocks) {
-    if (block.viscosity && !(*block.viscosity >= 0.0)) return invalid("a fluid block's viscosity must not be negative");
+    if (Status status = checkBlock(block); !status.ok()) return status;
     const auto counts = blockLattice(block, d.spacing);
     std::uint64_t particles = 1;  // bounded after every factor: the product of three could overflow
     for (const std::uint64_t count : counts)
