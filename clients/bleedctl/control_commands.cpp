@@ -1,4 +1,6 @@
 // pause, resume, reset, step, pace, load and shutdown.
+#include <cstdio>
+#include <filesystem>
 #include <fmt/core.h>
 #include <fstream>
 #include <iterator>
@@ -37,14 +39,28 @@ Result<client::Pace> parsePace(const std::string& text) {
                 fmt::format("pace '{}' is not known: use realtime, max or a factor above 0, as 0.5", text)};
 }
 
-int runLoad(const Context& context, const std::string& path) {
+Result<std::string> readScene(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    return Status{StatusCode::io, fmt::format("'{}' is a folder: give a .textproto scene in it", path)};
+  }
   std::ifstream file{path, std::ios::binary};
-  if (!file) return fail(kFile, fmt::format("could not read '{}': check the path and its permissions", path));
-  const std::string text{std::istreambuf_iterator<char>{file}, {}};
-  if (file.bad() || text.empty()) return fail(kFile, fmt::format("'{}' is empty or not a file: give a .textproto scene", path));
+  if (!file) return Status{StatusCode::io, fmt::format("could not read '{}': check the path and its permissions", path)};
+  std::string text{std::istreambuf_iterator<char>{file}, {}};
+  if (text.empty()) return Status{StatusCode::io, fmt::format("'{}' is empty: give a .textproto scene", path)};
+  return text;
+}
+
+int runLoad(const Context& context, const std::string& path) {
+  const Result<std::string> text = readScene(path);
+  if (!text) return fail(kFile, text.status().message());
   int code = kDone;
   std::optional<Connection> connection = connect(context, commandsOnly(), code);
-  return connection ? finish(context, connection->session.loadScene(text), fmt::format("loaded {}", path)) : code;
+  if (!connection) return code;
+  code = finish(context, connection->session.loadScene(*text), fmt::format("loaded {}", path));
+  // A reply has room for the first problems only.
+  if (code == kFailed) fmt::print(stderr, "'bleedd --scene {} --check' lists all that is wrong in a scene.\n", path);
+  return code;
 }
 
 int runShutdown(const Context& context) {
@@ -67,7 +83,7 @@ void addControlCommands(CLI::App& app, Context& context) {
 
   CLI::App* step = app.add_subcommand("step", "Make N solver steps; the session has to be paused");
   const auto count = std::make_shared<std::uint32_t>(1);
-  step->add_option("N", *count, "Number of steps")->required()->check(CLI::Range(1U, 1'000'000'000U));
+  step->add_option("N", *count, "Number of steps")->required()->check(CLI::Range(1U, 1'000'000'000U))->type_name("");
   step->callback([&context, count] {
     context.action = [&context, count] {
       int code = kDone;
@@ -78,10 +94,13 @@ void addControlCommands(CLI::App& app, Context& context) {
 
   CLI::App* pace = app.add_subcommand("pace", "Simulated against wall time: realtime, max, or a factor such as 0.5");
   const auto mode = std::make_shared<std::string>();
-  pace->add_option("PACE", *mode, "realtime, max or X")->required()->check([](const std::string& text) {
-    const Result<client::Pace> parsed = parsePace(text);
-    return parsed.ok() ? std::string{} : parsed.status().message();
-  });
+  pace->add_option("PACE", *mode, "realtime, max or simulated seconds per second")
+      ->required()
+      ->type_name("")
+      ->check([](const std::string& text) {
+        const Result<client::Pace> parsed = parsePace(text);
+        return parsed.ok() ? std::string{} : parsed.status().message();
+      });
   pace->callback([&context, mode] {
     context.action = [&context, mode] {
       int code = kDone;
@@ -94,7 +113,7 @@ void addControlCommands(CLI::App& app, Context& context) {
 
   CLI::App* load = app.add_subcommand("load", "Load another scene into the session");
   const auto path = std::make_shared<std::string>();
-  load->add_option("FILE", *path, "Scene in protobuf text, as config/scenes/round_wound.textproto")->required();
+  load->add_option("FILE", *path, "Scene in protobuf text, as config/scenes/round_wound.textproto")->required()->type_name("");
   load->callback([&context, path] { context.action = [&context, path] { return runLoad(context, *path); }; });
 
   app.add_subcommand("shutdown", "End the session's daemon and wait until it is gone")->callback([&context] {

@@ -139,14 +139,17 @@ int runExport(const Context& context, const std::string& path, const std::string
 void addRecord(CLI::App& app, Context& context) {
   CLI::App* record = app.add_subcommand("record", "Record a session into an MCAP file until a limit or Ctrl-C");
   const auto v = std::make_shared<RecordArguments>();
-  record->add_option("-o,--output", v->path, "File to write, replaced if it exists")->required();
-  CLI::Option* duration =
-      record->add_option("--duration", v->duration_s, "Simulated seconds from the first frame")->check(CLI::Range(1e-9, 1e9));
-  CLI::Option* frames =
-      record->add_option("--frames", v->frames, "Number of frames")->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40U));
+  record->add_option("-o,--output", v->path, "File to write, replaced if it exists")->required()->type_name("FILE");
+  CLI::Option* duration = record->add_option("--duration", v->duration_s, "Simulated seconds from the first frame")
+                              ->check(CLI::Range(1e-9, 1e9))
+                              ->type_name("S");
+  CLI::Option* frames = record->add_option("--frames", v->frames, "Number of frames")
+                            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40U))
+                            ->type_name("N");
   duration->excludes(frames);
   CLI::Option* rate = record->add_option("--rate", v->rate_hz, "Record at most so many frames per simulated second")
-                          ->check(CLI::Range(1e-9, 1e6));
+                          ->check(CLI::Range(1e-9, 1e6))
+                          ->type_name("HZ");
   record->callback([&context, v, duration, frames, rate] {
     client::RecordingLimits limits;
     if (duration->count() > 0) limits.duration_s = v->duration_s;
@@ -163,14 +166,14 @@ void addRecordingCommands(CLI::App& app, Context& context) {
 
   CLI::App* info = app.add_subcommand("info", "Say what a recording holds");
   const auto info_path = std::make_shared<std::string>();
-  info->add_option("FILE", *info_path, "Recording")->required();
+  info->add_option("FILE", *info_path, "Recording")->required()->type_name("");
   info->callback([&context, info_path] { context.action = [&context, info_path] { return runInfo(context, *info_path); }; });
 
   CLI::App* out = app.add_subcommand("export", "Write a recording as .vtp files and a .pvd for ParaView");
   const auto out_path = std::make_shared<std::string>();
   const auto directory = std::make_shared<std::string>();
-  out->add_option("FILE", *out_path, "Recording")->required();
-  out->add_option("-o,--output", *directory, "Folder to write into")->required();
+  out->add_option("FILE", *out_path, "Recording")->required()->type_name("");
+  out->add_option("-o,--output", *directory, "Folder to write into, created if missing")->required()->type_name("DIR");
   out->callback([&context, out_path, directory] {
     context.action = [&context, out_path, directory] { return runExport(context, *out_path, *directory); };
   });

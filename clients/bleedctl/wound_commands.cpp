@@ -37,14 +37,15 @@ std::function<int()> command(const Context& context, const std::string& done, Se
 void addAdd(CLI::App& wound, Context& context) {
   CLI::App* add = wound.add_subcommand("add", "Open a round wound; prints its ID");
   const auto v = std::make_shared<Values>();
-  add->add_option("--at", v->at, "Centre X,Y,Z in m")->required()->check(checkVec3);
-  add->add_option("--radius-mm", v->radius_mm, "Radius in mm")->required()->check(checkFinite);
-  CLI::Option* flow = add->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(checkFinite);
-  CLI::Option* pressure =
-      add->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg instead of a flow")->check(checkFinite);
+  add->add_option("--at", v->at, "Centre in m")->required()->check(checkVec3)->type_name("X,Y,Z");
+  add->add_option("--radius-mm", v->radius_mm, "Radius in mm")->required()->check(checkFinite)->type_name("R");
+  CLI::Option* flow = add->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(checkFinite)->type_name("Q");
+  CLI::Option* pressure = add->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg instead of a flow")
+                              ->check(checkFinite)
+                              ->type_name("P");
   flow->excludes(pressure);
-  add->add_option("--normal", v->normal, "Outward direction X,Y,Z; default 0,0,1")->check(checkVec3);
-  add->add_option("--name", v->name, "Name of the wound");
+  add->add_option("--normal", v->normal, "Outward direction, of any length; default 0,0,1")->check(checkVec3)->type_name("X,Y,Z");
+  add->add_option("--name", v->name, "Name of the wound")->type_name("NAME");
   add->callback([&context, v, flow, pressure] {
     if (flow->count() + pressure->count() == 0) throw CLI::RequiredError("--flow-ml-per-s (or --pressure-mmhg)");
     client::WoundSpec spec{.name = v->name, .position = vec3(v->at), .radius_m = v->radius_mm * kMetresPerMillimetre};
@@ -58,9 +59,9 @@ void addAdd(CLI::App& wound, Context& context) {
 void addMove(CLI::App& wound, Context& context) {
   CLI::App* move = wound.add_subcommand("move", "Move a wound");
   const auto v = std::make_shared<Values>();
-  move->add_option("ID", v->id, "ID of the wound")->required();
-  move->add_option("--at", v->at, "New centre X,Y,Z in m")->required()->check(checkVec3);
-  move->add_option("--normal", v->normal, "New outward direction X,Y,Z")->check(checkVec3);
+  move->add_option("ID", v->id, "ID of the wound")->required()->type_name("");
+  move->add_option("--at", v->at, "New centre in m")->required()->check(checkVec3)->type_name("X,Y,Z");
+  move->add_option("--normal", v->normal, "New outward direction")->check(checkVec3)->type_name("X,Y,Z");
   move->callback([&context, v] {
     client::WoundChange change{.position = vec3(v->at)};
     if (!v->normal.empty()) change.normal = vec3(v->normal);
@@ -72,14 +73,16 @@ void addMove(CLI::App& wound, Context& context) {
 void addSet(CLI::App& wound, Context& context) {
   CLI::App* set = wound.add_subcommand("set", "Change a wound's flow, pressure, radius, direction or name");
   const auto v = std::make_shared<Values>();
-  set->add_option("ID", v->id, "ID of the wound")->required();
-  CLI::Option* flow = set->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(checkFinite);
-  CLI::Option* pressure = set->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg")->check(checkFinite);
+  set->add_option("ID", v->id, "ID of the wound")->required()->type_name("");
+  CLI::Option* flow = set->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(checkFinite)->type_name("Q");
+  CLI::Option* pressure =
+      set->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg")->check(checkFinite)->type_name("P");
   flow->excludes(pressure);
-  CLI::Option* radius = set->add_option("--radius-mm", v->radius_mm, "Radius in mm: the wound becomes round")->check(checkFinite);
-  CLI::Option* at = set->add_option("--at", v->at, "Centre X,Y,Z in m")->check(checkVec3);
-  CLI::Option* normal = set->add_option("--normal", v->normal, "Outward direction X,Y,Z")->check(checkVec3);
-  CLI::Option* name = set->add_option("--name", v->name, "Name of the wound");
+  CLI::Option* radius =
+      set->add_option("--radius-mm", v->radius_mm, "Radius in mm: the wound becomes round")->check(checkFinite)->type_name("R");
+  CLI::Option* at = set->add_option("--at", v->at, "Centre in m")->check(checkVec3)->type_name("X,Y,Z");
+  CLI::Option* normal = set->add_option("--normal", v->normal, "Outward direction")->check(checkVec3)->type_name("X,Y,Z");
+  CLI::Option* name = set->add_option("--name", v->name, "Name of the wound")->type_name("NAME");
   set->callback([&context, v, flow, pressure, radius, at, normal, name] {
     client::WoundChange change;
     if (flow->count() > 0) change.flow_ml_per_s = v->flow_ml_per_s;
@@ -99,7 +102,7 @@ void addSet(CLI::App& wound, Context& context) {
 void addRemove(CLI::App& wound, Context& context) {
   CLI::App* remove = wound.add_subcommand("remove", "Close a wound; its blood stays");
   const auto v = std::make_shared<Values>();
-  remove->add_option("ID", v->id, "ID of the wound")->required();
+  remove->add_option("ID", v->id, "ID of the wound")->required()->type_name("");
   remove->callback([&context, v] {
     context.action = command(context, "wound removed", [id = v->id](client::Session& s) { return s.removeWound(id); });
   });
@@ -108,10 +111,10 @@ void addRemove(CLI::App& wound, Context& context) {
 void addForce(CLI::App& app, Context& context) {
   CLI::App* force = app.add_subcommand("force", "Push the blood within a radius with a total force");
   const auto v = std::make_shared<Values>();
-  force->add_option("--at", v->at, "Centre X,Y,Z in m")->required()->check(checkVec3);
-  force->add_option("--radius-mm", v->radius_mm, "Reach in mm")->required()->check(checkFinite);
-  force->add_option("--newtons", v->newtons, "Force X,Y,Z in N")->required()->check(checkVec3);
-  force->add_option("--duration", v->duration_s, "Simulated seconds")->check(checkFinite)->capture_default_str();
+  force->add_option("--at", v->at, "Centre in m")->required()->check(checkVec3)->type_name("X,Y,Z");
+  force->add_option("--radius-mm", v->radius_mm, "Reach in mm")->required()->check(checkFinite)->type_name("R");
+  force->add_option("--newtons", v->newtons, "Force in N")->required()->check(checkVec3)->type_name("X,Y,Z");
+  force->add_option("--duration", v->duration_s, "Simulated seconds")->check(checkFinite)->type_name("S")->capture_default_str();
   force->callback([&context, v] {
     const client::ForceSpec spec{.position = vec3(v->at),
                                  .radius_m = v->radius_mm * kMetresPerMillimetre,

@@ -8,10 +8,8 @@ set(BLEEDSIM_INSTALL_CMAKE "${CMAKE_INSTALL_LIBDIR}/cmake/bleedsim")
 
 set(client_targets)
 foreach(name client recording transport idl status)
-  if(TARGET bleedsim_${name})
-    list(APPEND client_targets bleedsim_${name})
-    set_target_properties(bleedsim_${name} PROPERTIES EXPORT_NAME ${name})
-  endif()
+  list(APPEND client_targets bleedsim_${name})
+  set_target_properties(bleedsim_${name} PROPERTIES EXPORT_NAME ${name})
 endforeach()
 target_compile_features(bleedsim_client PUBLIC cxx_std_20)
 target_include_directories(bleedsim_client INTERFACE "$<INSTALL_INTERFACE:${BLEEDSIM_INSTALL_INCLUDE}>")
@@ -28,10 +26,6 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/bleedsimConfigVersion.cm
 install(FILES "${PROJECT_BINARY_DIR}/bleedsimConfig.cmake" "${PROJECT_BINARY_DIR}/bleedsimConfigVersion.cmake"
         DESTINATION "${BLEEDSIM_INSTALL_CMAKE}" COMPONENT client)
 
-foreach(program bleedd bleedctl)
-  if(TARGET ${program})
-    install(TARGETS ${program} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
-  endif()
-endforeach()
+install(TARGETS bleedd bleedctl RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/config/scenes" DESTINATION "${CMAKE_INSTALL_DATADIR}/bleedsim" COMPONENT programs
         FILES_MATCHING PATTERN "*.textproto")

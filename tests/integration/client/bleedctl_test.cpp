@@ -147,7 +147,12 @@ TEST_F(BleedctlTest, WrongUseHasCodeTwoAndAHint) {
   const Finished flag = bleedctl({"wound", "add", "--att", "0,0,0"});
   EXPECT_EQ(flag.code, 2);
   EXPECT_THAT(flag.output, HasSubstr("bleedctl wound add --help"));
-  EXPECT_EQ(bleedctl({}).code, 2);
+  const Finished none = bleedctl({});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.output, testing::AllOf(HasSubstr("which command?"), HasSubstr("record"), HasSubstr("shutdown")));
+  const Finished unknown = bleedctl({"wound", "open"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.output, testing::AllOf(HasSubstr("no command 'open'"), HasSubstr("add, move, set, remove")));
 }
 
 }  // namespace

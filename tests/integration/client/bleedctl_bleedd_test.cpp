@@ -1,0 +1,183 @@
+// Every command of bleedctl, as a process of its own, against a real bleedd.
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sstream>
+
+#include "tests/integration/client/json_value.h"
+#include "tests/integration/client/running_daemon.h"
+
+namespace bleedsim::client_test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::uint32_t kDomain = 68;
+const std::string kScenes = SCENE_DIR "/";
+
+class BleedctlBleeddTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    isolate();
+    daemon_ = RunningDaemon::start(BLEEDD_PATH, kScenes + "round_wound.textproto", "theatre", kDomain);
+    ASSERT_NE(daemon_, nullptr);
+  }
+
+  static Finished bleedctl(std::vector<std::string> arguments, bool with_stderr = true) {
+    arguments.insert(arguments.begin(), {BLEEDCTL_PATH, "--domain", std::to_string(kDomain), "--timeout", "60"});
+    return runProcess(arguments, with_stderr);
+  }
+  /// Runs a command that has to succeed and reads what it prints.
+  static Json json(std::vector<std::string> arguments) {
+    arguments.emplace_back("--json");
+    const Finished finished = bleedctl(std::move(arguments), false);
+    EXPECT_EQ(finished.code, 0) << finished.output;
+    return parseJson(finished.output);
+  }
+  /// What `status` prints, as soon as it fulfils the condition: an answer may overtake the status that tells of its effect.
+  static Json statusWhere(const std::function<bool(const Json&)>& condition) {
+    Json status;
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      status = json({"status"});
+      if (testing::Test::HasFailure() || condition(status)) return status;
+    }
+    ADD_FAILURE() << "the status stayed at " << status.ShortDebugString();
+    return status;
+  }
+  /// The session's status as soon as it fulfils the condition.
+  client::SessionStatus eventually(const std::function<bool(const client::SessionStatus&)>& condition) {
+    const auto status = daemon_->session().waitStatus(condition, kPatience);
+    EXPECT_TRUE(status.ok()) << status.status().message();
+    return status.ok() ? *status : client::SessionStatus{};
+  }
+
+  std::unique_ptr<RunningDaemon> daemon_;
+};
+
+TEST_F(BleedctlBleeddTest, ListStatusAndWatchShowTheSession) {
+  const Json sessions = json({"list"});
+  ASSERT_EQ(sessions.list_value().values_size(), 1);
+  EXPECT_EQ(text(sessions.list_value().values(0), "session"), "theatre");
+  EXPECT_EQ(number(sessions.list_value().values(0), "pid"), daemon_->session().status()->pid);
+  EXPECT_THAT(bleedctl({"list"}).output, HasSubstr("theatre"));
+
+  const Json status = json({"status"});
+  EXPECT_EQ(text(status, "state"), "running");
+  EXPECT_EQ(text(status, "pace"), "realtime");
+  EXPECT_EQ(number(status, "wounds"), 1.0);
+  EXPECT_EQ(text(member(status, "scene"), "name"), "round_wound");
+  EXPECT_EQ(number(member(status, "scene"), "spacing_m"), 0.003);
+  EXPECT_GE(number(member(status, "counters"), "requests"), 0.0);
+  EXPECT_THAT(bleedctl({"status", "--session", "theatre"}).output, HasSubstr("round_wound"));
+
+  const Finished watched = bleedctl({"watch", "--count", "3", "--json"}, false);
+  ASSERT_EQ(watched.code, 0) << watched.output;
+  std::istringstream lines{watched.output};
+  double seq = 0.0;
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const Json figures = parseJson(line);
+    EXPECT_GE(number(figures, "seq"), seq);
+    seq = number(figures, "seq");
+    EXPECT_GT(number(figures, "ml_emitted"), 0.0);
+    EXPECT_GE(number(figures, "gaps"), 0.0);
+  }
+  EXPECT_EQ(count, 3);
+}
+
+TEST_F(BleedctlBleeddTest, WoundsAreAddedMovedChangedAndRemoved) {
+  const Json added = json({"wound", "add", "--at", "-0.02,0,0", "--radius-mm", "3", "--flow-ml-per-s", "2", "--normal", "0,0,1"});
+  EXPECT_EQ(text(added, "code"), "accepted");
+  EXPECT_GT(number(added, "applied_step"), 0.0);
+  const std::string id = std::to_string(static_cast<int>(number(added, "object_id")));
+  EXPECT_EQ(id, "2");
+  eventually([](const client::SessionStatus& status) { return status.wounds == 2; });
+
+  EXPECT_EQ(text(json({"wound", "move", id, "--at", "-0.02,0.01,0"}), "code"), "accepted");
+  EXPECT_EQ(text(json({"wound", "set", id, "--flow-ml-per-s", "0.5"}), "code"), "accepted");
+  EXPECT_EQ(text(json({"wound", "set", id, "--pressure-mmhg", "0.3", "--name", "vein"}), "code"), "accepted");
+  const Finished removed = bleedctl({"wound", "remove", id});
+  EXPECT_EQ(removed.code, 0);
+  EXPECT_THAT(removed.output, HasSubstr("wound 2"));
+  eventually([](const client::SessionStatus& status) { return status.wounds == 1; });
+}
+
+TEST_F(BleedctlBleeddTest, ARefusalHasCodeOneAndLeavesTheSessionAsItWas) {
+  const Finished unknown = bleedctl({"wound", "remove", "99"});
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_THAT(unknown.output, HasSubstr("99"));
+  const Finished as_json = bleedctl({"wound", "move", "99", "--at", "0,0,0", "--json"}, false);
+  EXPECT_EQ(as_json.code, 1);
+  EXPECT_EQ(text(parseJson(as_json.output), "code"), "not found");
+  EXPECT_FALSE(member(parseJson(as_json.output), "accepted").bool_value());
+
+  const Finished outside = bleedctl({"wound", "add", "--at", "5,0,0", "--radius-mm", "2", "--flow-ml-per-s", "1"});
+  EXPECT_EQ(outside.code, 1);
+  EXPECT_THAT(outside.output, HasSubstr("domain"));
+  const Finished stepped = bleedctl({"step", "5"});
+  EXPECT_EQ(stepped.code, 1);
+  EXPECT_THAT(stepped.output, HasSubstr("pause"));
+  const Finished too_fast = bleedctl({"pace", "1e9"});
+  EXPECT_EQ(too_fast.code, 1);
+  const Json status = json({"status"});
+  EXPECT_EQ(number(status, "wounds"), 1.0);
+  EXPECT_EQ(text(status, "pace"), "realtime");
+  EXPECT_EQ(text(status, "state"), "running");
+  EXPECT_GE(number(member(status, "counters"), "requests_refused"), 5.0);
+}
+
+TEST_F(BleedctlBleeddTest, TheClockObeys) {
+  EXPECT_EQ(text(json({"pause"}), "code"), "accepted");
+  const auto still = eventually([](const client::SessionStatus& s) { return s.state == client::SessionState::paused; });
+  // The first step that knew of the request is the one after those done.
+  EXPECT_EQ(number(json({"step", "25"}), "applied_step"), static_cast<double>(still.step + 1));
+  eventually([&](const client::SessionStatus& s) { return s.step == still.step + 25; });
+  EXPECT_EQ(text(json({"resume"}), "code"), "accepted");
+  eventually(
+      [&](const client::SessionStatus& s) { return s.state == client::SessionState::running && s.step > still.step + 25; });
+  for (const char* pace : {"0.5", "max", "realtime"}) {
+    EXPECT_EQ(bleedctl({"pace", pace}).code, 0) << pace;
+    statusWhere([&](const Json& status) { return text(status, "pace") == pace; });
+  }
+  EXPECT_EQ(
+      text(json({"force", "--at", "0,0,0.002", "--radius-mm", "10", "--newtons", "0,0,-0.05", "--duration", "0.05"}), "code"),
+      "accepted");
+}
+
+TEST_F(BleedctlBleeddTest, ResetLoadAndShutdown) {
+  const std::uint32_t epoch = daemon_->session().status()->epoch;
+  const Json reset = json({"reset"});
+  EXPECT_EQ(number(reset, "epoch"), epoch + 1.0);
+
+  const std::string drip = kScenes + "drip.textproto";
+  EXPECT_EQ(number(json({"load", drip}), "epoch"), epoch + 2.0);
+  statusWhere([](const Json& status) { return text(member(status, "scene"), "name") == "drip"; });
+
+  EXPECT_EQ(bleedctl({"load", kScenes + "missing.textproto"}).code, 4);
+  const Finished folder = bleedctl({"load", kScenes});
+  EXPECT_EQ(folder.code, 4);
+  EXPECT_THAT(folder.output, HasSubstr("folder"));
+  const Finished no_scene = bleedctl({"load", SCENE_DIR "/../debian-packages.txt"});
+  EXPECT_EQ(no_scene.code, 1);
+  EXPECT_THAT(no_scene.output, HasSubstr("--check"));
+  EXPECT_EQ(text(member(json({"status"}), "scene"), "name"), "drip");
+
+  const Finished ended = bleedctl({"shutdown"});
+  EXPECT_EQ(ended.code, 0) << ended.output;
+  EXPECT_EQ(daemon_->process().wait(), 0) << daemon_->process().output();
+  EXPECT_EQ(bleedctl({"status", "--timeout", "1"}).code, 3);
+}
+
+TEST_F(BleedctlBleeddTest, WrongUseHasCodeTwoAndReachesNobody) {
+  EXPECT_EQ(bleedctl({"pause", "--fast"}).code, 2);
+  EXPECT_EQ(bleedctl({"wound", "remove", "first"}).code, 2);
+  EXPECT_EQ(bleedctl({"pause", "--session", "no such name"}).code, 2);
+  EXPECT_EQ(bleedctl({"pause", "--interface", "none0"}).code, 2);
+  EXPECT_EQ(bleedctl({"pause", "--session", "other", "--timeout", "1"}).code, 3);
+  const Json status = json({"status"});
+  EXPECT_EQ(text(status, "state"), "running");
+  EXPECT_EQ(number(member(status, "counters"), "requests"), 0.0);
+}
+
+}  // namespace
+}  // namespace bleedsim::client_test
