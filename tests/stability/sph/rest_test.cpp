@@ -30,8 +30,7 @@ TEST_P(RestTest, hydrostaticBox) {
   EXPECT_EQ(counterOf(*world, sph::Counter::tissue_projected), 0u);
 }
 
-// Without gravity nothing drives the rest lattice but the rounding of float and, at walls, the first row's density error of .1 %
-// (plane) to .5 % (corner, walls.md).
+// Without gravity and walls nothing drives the rest lattice but the rounding of float, which must not add up.
 TEST_P(RestTest, freeLatticeDoesNotDrift) {
   sph::WorldDescription scene = freeBlock({12, 12, 12});
   scene.support_ratio = GetParam();
