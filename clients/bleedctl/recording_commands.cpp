@@ -64,9 +64,15 @@ int runRecord(const Context& context, const std::string& path, const client::Rec
   Result<client::Recorder> recorder = client::Recorder::start(*client, session->name, path, limits);
   if (!recorder) return recorder.status().code() == StatusCode::io ? failFile(recorder.status()) : fail(recorder.status());
   bool interrupted = false;
+  bool announced = isatty(STDERR_FILENO) == 1;  // a terminal shows the progress
   while (!interrupted && !recorder->progress().done) {
     interrupted = waitForStopSignal(kTick);
-    drawProgress(recorder->progress(), limits);
+    const client::RecordingProgress progress = recorder->progress();
+    drawProgress(progress, limits);
+    if (!announced && progress.frames > 0) {
+      fmt::print(stderr, "recording session '{}' into '{}'; Ctrl-C ends it\n", session->name, path);
+      announced = true;
+    }
   }
   const Status closed = recorder->close();
   const client::RecordingProgress progress = recorder->progress();
@@ -103,7 +109,11 @@ int runInfo(const Context& context, const std::string& path) {
     return kDone;
   }
   fmt::print("file              {} ({:.1f} MB)\n", path, static_cast<double>(s.file_bytes) * 1e-6);
-  fmt::print("session           {}, scene {}, bleedd {} ({})\n", s.session_name, s.scene_name, s.version, s.simd_target);
+  if (s.session_name.empty()) {
+    fmt::print("session           unknown\n");
+  } else {
+    fmt::print("session           {}, scene {}, bleedd {} ({})\n", s.session_name, s.scene_name, s.version, s.simd_target);
+  }
   fmt::print("frames            {}, {} missing, {} left out\n", s.frames, s.gaps, s.skipped);
   fmt::print("particles         {} at first, {} at last\n", s.first_particles, s.last_particles);
   fmt::print("duration          {:.3f} simulated s, {:.3f} wall s\n", s.duration_s, s.wall_duration_s);

@@ -1,0 +1,229 @@
+// record, info and export as processes, against a real bleedd and against damaged files.
+#include <csignal>
+#include <filesystem>
+#include <fmt/core.h>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <unistd.h>
+
+#include "service/recording/recording_reader.h"
+#include "tests/integration/client/json_value.h"
+#include "tests/integration/client/running_daemon.h"
+
+namespace bleedsim::client_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr std::uint32_t kDomain = 70;
+constexpr std::uint64_t kFrameBytes = 3 * sizeof(float) + sizeof(std::uint32_t) + 3 * sizeof(float);
+
+std::string bytesOf(const fs::path& path) {
+  std::ifstream file{path, std::ios::binary};
+  return {std::istreambuf_iterator<char>{file}, {}};
+}
+
+void write(const fs::path& path, const std::string& bytes) {
+  std::ofstream file{path, std::ios::binary};
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+std::vector<std::string> command(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {BLEEDCTL_PATH, "--domain", std::to_string(kDomain), "--timeout", "60"});
+  return arguments;
+}
+
+class RecordingCommandsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    isolate();
+    folder_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_recording_commands_{}", getpid());
+    fs::create_directories(folder_);
+    daemon_ = RunningDaemon::start(BLEEDD_PATH, SCENE_DIR "/round_wound.textproto", "theatre", kDomain);
+    ASSERT_NE(daemon_, nullptr);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  static Finished bleedctl(std::vector<std::string> arguments, bool with_stderr = true) {
+    return runProcess(command(std::move(arguments)), with_stderr);
+  }
+  static Json info(const std::string& file) {
+    const Finished finished = bleedctl({"info", file, "--json"}, false);
+    EXPECT_EQ(finished.code, 0) << finished.output;
+    return parseJson(finished.output);
+  }
+
+  fs::path folder_;
+  std::unique_ptr<RunningDaemon> daemon_;
+};
+
+/// Every frame that a reliable subscriber of this process gets.
+class FrameCollector {
+ public:
+  bool start(const std::string& name) {
+    auto client = client::Client::create({.domain = kDomain});
+    if (!client) return false;
+    const auto keep = [this](const client::FramePointer& frame) {
+      const std::lock_guard lock{mutex_};
+      frames_[frame->header().seq] = frame;
+    };
+    auto session = client->open(name, {.delivery = client::Delivery::queue, .queue_length = 256, .on_frame = keep}, kPatience);
+    if (!session) return false;
+    session_.emplace(std::move(*session));
+    return true;
+  }
+  std::map<std::uint64_t, client::FramePointer> finish() {
+    session_.reset();
+    return std::move(frames_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::uint64_t, client::FramePointer> frames_;
+  std::optional<client::Session> session_;  // last: its thread ends before the rest
+};
+
+/// The blocks of a frame of this scene: positions, ids, velocities.
+std::string payloadOf(const client::Frame& frame) {
+  std::string payload;
+  const auto append = [&](const void* data, std::size_t size) { payload.append(static_cast<const char*>(data), size); };
+  append(frame.positions().data(), frame.positions().size_bytes());
+  append(frame.ids().data(), frame.ids().size_bytes());
+  append(frame.velocities().data(), frame.velocities().size_bytes());
+  return payload;
+}
+
+TEST_F(RecordingCommandsTest, WhatWasRecordedIsDescribedExportedAndReadBackEqual) {
+  FrameCollector collector;
+  ASSERT_TRUE(collector.start("theatre"));
+  const std::string file = path("a.mcap");
+  const Finished recorded = bleedctl({"record", "-o", file, "--duration", "1.5", "--json"}, false);
+  ASSERT_EQ(recorded.code, 0) << recorded.output;
+  const auto seen = collector.finish();
+
+  const Json figures = info(file);
+  const double frames = number(figures, "frames");
+  EXPECT_EQ(frames, number(parseJson(recorded.output), "frames"));
+  EXPECT_GE(frames + number(figures, "gaps"), 45.0);
+  EXPECT_NEAR(number(figures, "duration_s"), 1.5, 2.0 / 60.0);
+  EXPECT_GT(number(figures, "last_particles"), number(figures, "first_particles"));
+  EXPECT_NEAR(number(figures, "ml_emitted"), 1.5 * number(figures, "duration_s"), 0.06);
+  EXPECT_TRUE(member(figures, "replayable").bool_value()) << text(figures, "reason");
+  EXPECT_FALSE(member(figures, "truncated").bool_value());
+  EXPECT_EQ(text(figures, "session"), "theatre");
+  EXPECT_EQ(text(figures, "scene"), "round_wound");
+
+  auto reader = recording::RecordingReader::open(file);
+  ASSERT_TRUE(reader.ok()) << reader.status().message();
+  EXPECT_TRUE(reader->verify().ok());
+  ASSERT_EQ(static_cast<double>(*reader->frameCount()), frames);
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < *reader->frameCount(); ++i) {
+    recording::Frame frame;
+    ASSERT_TRUE(reader->frame(i, frame).ok());
+    EXPECT_EQ(frame.payload().size(), frame.count() * kFrameBytes);
+    const auto same = seen.find(frame.seq());
+    if (same == seen.end()) continue;
+    ++compared;
+    EXPECT_EQ(frame.step(), same->second->header().step);
+    EXPECT_EQ(frame.sim_time_s(), same->second->header().sim_time_s);
+    ASSERT_EQ(frame.count(), same->second->count());
+    ASSERT_EQ(frame.payload(), payloadOf(*same->second)) << "frame " << frame.seq();
+  }
+  EXPECT_GT(compared, 20U);
+
+  const Json exported = parseJson(bleedctl({"export", file, "-o", path("vtk"), "--json"}, false).output);
+  EXPECT_EQ(number(exported, "frames"), frames);
+  const std::string collection = bytesOf(text(exported, "collection"));
+  std::size_t files = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator{path("vtk")}) {
+    if (entry.path().extension() != ".vtp") continue;
+    ++files;
+    EXPECT_THAT(collection, HasSubstr(entry.path().filename().string()));
+  }
+  EXPECT_EQ(static_cast<double>(files), frames);
+  const std::string last = bytesOf(path(fmt::format("vtk/frame_{:06}.vtp", files - 1)));
+  EXPECT_THAT(last, HasSubstr(fmt::format(R"(NumberOfPoints="{}")", number(figures, "last_particles"))));
+}
+
+TEST_F(RecordingCommandsTest, AnInterruptClosesTheFileProperly) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const std::string file = path("interrupted.mcap");
+    ChildProcess record{command({"record", "-o", file}), true};
+    const auto started = record.readLine();
+    ASSERT_TRUE(started.has_value());
+    EXPECT_THAT(*started, HasSubstr("recording session 'theatre'"));
+    record.signal(signal);
+    EXPECT_EQ(record.wait(), 0) << record.output();
+    const Json figures = info(file);
+    EXPECT_GT(number(figures, "frames"), 0.0);
+    EXPECT_FALSE(member(figures, "truncated").bool_value());
+  }
+}
+
+TEST_F(RecordingCommandsTest, FramesAndRateLimitWhatIsRecorded) {
+  const std::string file = path("limited.mcap");
+  ASSERT_EQ(bleedctl({"record", "-o", file, "--frames", "12"}).code, 0);
+  EXPECT_EQ(number(info(file), "frames"), 12.0);
+  EXPECT_EQ(number(info(file), "skipped"), 0.0);
+
+  ASSERT_EQ(bleedctl({"record", "-o", file, "--frames", "10", "--rate", "20"}).code, 0);
+  const Json slow = info(file);
+  EXPECT_EQ(number(slow, "frames"), 10.0);
+  EXPECT_GE(number(slow, "skipped"), 1.0);
+  EXPECT_GE(number(slow, "duration_s"), 9.0 / 20.0 - 1.0 / 60.0);
+  EXPECT_EQ(bleedctl({"record", "-o", file, "--frames", "10", "--duration", "1"}).code, 2);
+  EXPECT_EQ(bleedctl({"record", "-o", file, "--frames", "0"}).code, 2);
+  EXPECT_EQ(bleedctl({"record", "-o", file, "--rate", "-1"}).code, 2);
+}
+
+TEST_F(RecordingCommandsTest, ASessionThatEndsLeavesACompleteFileAndCodeThree) {
+  const std::string file = path("ended.mcap");
+  ChildProcess record{command({"record", "-o", file, "--duration", "1000"}), true};
+  ASSERT_TRUE(record.readLine().has_value());
+  ASSERT_EQ(bleedctl({"shutdown"}).code, 0);
+  EXPECT_EQ(record.wait(), 3);
+  EXPECT_THAT(record.output(), HasSubstr("ended before the recording was complete"));
+  EXPECT_GT(number(info(file), "frames"), 0.0);
+  EXPECT_FALSE(member(info(file), "truncated").bool_value());
+}
+
+TEST_F(RecordingCommandsTest, DamagedFilesAreNamedAndReadAsFarAsTheyGo) {
+  const std::string file = path("whole.mcap");
+  ASSERT_EQ(bleedctl({"record", "-o", file, "--frames", "20"}).code, 0);
+  const std::string whole = bytesOf(file);
+
+  write(path("cut.mcap"), whole.substr(0, whole.size() - 100));
+  const Json cut = info(path("cut.mcap"));
+  EXPECT_TRUE(member(cut, "truncated").bool_value());
+  EXPECT_EQ(number(cut, "frames"), 20.0);
+  EXPECT_THAT(bleedctl({"info", path("cut.mcap")}).output, HasSubstr("truncated"));
+
+  write(path("other.mcap"), "not a recording at all, but long enough to be looked at");
+  write(path("empty.mcap"), "");
+  for (const char* name : {"other.mcap", "empty.mcap", "missing.mcap"}) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"info", path(name)}, std::vector<std::string>{"export", path(name), "-o", path("vtk")}}) {
+      const Finished finished = bleedctl(arguments);
+      EXPECT_EQ(finished.code, 4) << arguments.front() << " " << name << ": " << finished.output;
+      EXPECT_THAT(finished.output, HasSubstr(name));
+    }
+  }
+  std::string flipped = whole;
+  flipped[flipped.size() / 3] = static_cast<char>(flipped[flipped.size() / 3] ^ 0x5a);
+  write(path("flipped.mcap"), flipped);
+  const Finished damaged = bleedctl({"info", path("flipped.mcap")});
+  EXPECT_EQ(damaged.code, 4) << damaged.output;
+  EXPECT_THAT(damaged.output, HasSubstr("flipped.mcap"));
+  EXPECT_EQ(bleedctl({"record", "-o", path("no/such/folder.mcap")}).code, 4);
+}
+
+}  // namespace
+}  // namespace bleedsim::client_test
