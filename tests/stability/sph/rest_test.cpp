@@ -10,7 +10,7 @@ namespace {
 class RestTest : public testing::TestWithParam<double> {};
 
 // v_rms < 0.01 sqrt(gH), and the compression of the floor row, gH/c0^2 = 1/(2 mach^2) for c0 = mach sqrt(2gH), within
-// the 1.5/mach^2 that physics.md allows. The start is a cold lattice, so the column first rings; 0.4 s are about 60 sound
+// the 1.5/mach^2 that physics.md allows. The start is a cold lattice, so the column first rings; 0.4 s are about 120 sound
 // crossings.
 TEST_P(RestTest, hydrostaticBox) {
   sph::WorldDescription scene = hydrostaticColumn({10, 10, 20}, 0.05);
