@@ -51,8 +51,8 @@ TEST(CommandLine, AnswersWrongUseWithCodeTwo) {
 TEST(CommandLine, HelpAndVersionSucceedForEveryCommand) {
   EXPECT_EQ(run({"--help"}), 0);
   EXPECT_EQ(run({"--version"}), 0);
-  for (const char* command :
-       {"list", "status", "watch", "pause", "resume", "reset", "step", "pace", "load", "shutdown", "force"}) {
+  for (const char* command : {"list", "status", "watch", "pause", "resume", "reset", "step", "pace", "load", "shutdown", "force",
+                              "record", "info", "export"}) {
     EXPECT_EQ(run({command, "--help"}), 0) << command;
   }
   for (const char* command : {"add", "move", "set", "remove"}) EXPECT_EQ(run({"wound", command, "--help"}), 0) << command;
