@@ -77,8 +77,11 @@ TEST_F(BleedctlTest, AMissingSessionHasCodeThreeAndNamesTheOthers) {
 
 TEST_F(BleedctlTest, SendsEveryCommandAndPrintsTheAnswer) {
   std::vector<std::uint32_t> kinds;
-  const auto service = serve("one", [&kinds](const bleed_v1_Request& request, bleed_v1_Reply& reply) {
-    kinds.push_back(request.body._d);
+  std::uint64_t last_run = 0;
+  const auto service = serve("one", [&kinds, &last_run](const bleed_v1_Request& request, bleed_v1_Reply& reply) {
+    // On a busy machine a request is sent again; each process has a run of its own.
+    if (request.run != last_run) kinds.push_back(request.body._d);
+    last_run = request.run;
     reply.object_id = request.body._d == bleed_v1_REQUEST_WOUND_ADD ? 7 : 0;
     reply.applied_step = 55;
     return true;
