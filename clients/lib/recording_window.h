@@ -36,9 +36,9 @@ class RecordingWindow {
   }
   /// A limit is reached.
   bool full() const {
-    constexpr double kTolerance_s = 1e-9;
+    constexpr double kToleranceS = 1e-9;
     return (limits_.frames && frames_ >= *limits_.frames) ||
-           (limits_.duration_s && started_ && recorded_s_ >= *limits_.duration_s - kTolerance_s);
+           (limits_.duration_s && started_ && recorded_s_ >= *limits_.duration_s - kToleranceS);
   }
   double recordedSeconds() const { return recorded_s_; }
 

@@ -75,7 +75,7 @@ std::uint64_t StatusHead::counter(const std::string& counter_name) const {
   return 0;
 }
 
-Probe::Probe(std::uint32_t domain, std::string session, Reading frames)
+Probe::Probe(std::uint32_t domain, const std::string& session, Reading frames)
     : participant_{join(domain)},
       frames_{need(Reader<bleed_v1_Frame>::create(participant_, session, readerQos(Topic::frame, frames)))},
       stats_{need(Reader<bleed_v1_FrameStats>::create(participant_, session, readerQos(Topic::frame_stats, Reading::recorder)))},

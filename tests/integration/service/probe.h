@@ -65,7 +65,7 @@ struct StatusHead {
 
 class Probe {
  public:
-  Probe(std::uint32_t domain, std::string session, Reading frames = Reading::recorder);
+  Probe(std::uint32_t domain, const std::string& session, Reading frames = Reading::recorder);
 
   using Body = std::function<void(bleed_v1_RequestBody&)>;
   /// A body of that case; `fill` may set its members.
