@@ -152,7 +152,9 @@ void addSessionCommands(CLI::App& app, Context& context) {
   });
   CLI::App* watch = app.add_subcommand("watch", "Show time, real-time factor, particles, mL and gaps until Ctrl-C");
   const auto count = std::make_shared<std::uint64_t>(0);
-  watch->add_option("--count", *count, "End after so many lines; 0: never");
+  watch->add_option("--count", *count, "End after so many lines; 0: never")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40U))
+      ->type_name("N");
   watch->callback([&context, count] { context.action = [&context, count] { return runWatch(context, *count); }; });
 }
 

@@ -46,6 +46,7 @@ TEST(CommandLine, AnswersWrongUseWithCodeTwo) {
   EXPECT_EQ(run({"pace", "fast"}), 2);
   EXPECT_EQ(run({"pace", "-1"}), 2);
   EXPECT_EQ(run({"step", "0"}), 2);
+  EXPECT_EQ(run({"watch", "--count", "-1"}), 2);
 }
 
 TEST(CommandLine, HelpAndVersionSucceedForEveryCommand) {
