@@ -236,8 +236,11 @@ void Session::Impl::takeFrames() {
 }
 
 void Session::Impl::watchPeers() {
+  // All are asked, whatever the first says: a status that stays uncleared would wake the wait set without end.
   const bool status_writer = endpoints_->status->aliveCount() > 0;
-  const bool connected = status_writer && endpoints_->request.matchedCount() > 0 && endpoints_->reply->matchedCount() > 0;
+  const bool request_reader = endpoints_->request.matchedCount() > 0;
+  const bool reply_writer = endpoints_->reply->aliveCount() > 0;
+  const bool connected = status_writer && request_reader && reply_writer;
   const std::lock_guard lock{mutex};
   const bool stopped = status && status->state == SessionState::stopped;
   const bool now_alive = !stopped && (status_writer || !matched);
