@@ -57,7 +57,8 @@ class WallEffects {
         const Real z = p.z[i] * constants_.h;
         if (!field_.sample(x, y, z, entry.wall)) continue;
         if (!wounds.empty())
-          closeBy(Real(1) - static_cast<Real>(wounds.openFraction(Vec3{double{x}, double{y}, double{z}})), entry.wall);
+          closeBy(Real(1) - static_cast<Real>(wounds.openFraction(Eigen::Matrix<Real, 3, 1>{x, y, z}.template cast<double>())),
+                  entry.wall);
         entry.particle = i;
         share_[i] = entry.wall.share;
         ++length;
