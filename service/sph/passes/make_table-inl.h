@@ -22,6 +22,7 @@ constexpr std::array<ForceFunction<typename L::Scalar>, PairSet::kCount> forcePa
   using Harmonic = Viscosity<L, true>;
   constexpr auto kNone = PressureTerm::none;
   constexpr auto kVariational = PressureTerm::variational;
+  static_assert(PairSet::kCount <= 128, "an effect that needs more sets becomes a sweep of its own");
   std::array<ForceFunction<typename L::Scalar>, PairSet::kCount> table{};
   table[PairSet{kNone, ViscosityTerm::uniform}.index()] = &ForcePass<L, kPeriodic, Uniform>::run;
   table[PairSet{kNone, ViscosityTerm::harmonic}.index()] = &ForcePass<L, kPeriodic, Harmonic>::run;

@@ -57,15 +57,15 @@ Status checkSpeed(const ColumnSpeed& column, const WoundDrive& drive) {
   const double ratio = column.limit / column.speed;
   std::string lower;
   if (const auto* flow = std::get_if<FlowDrive>(&drive)) {
-    lower = textOf("flow to at most ", roundedDown(flow->flow * ratio * kMlPerCubicMetre), " mL/s");
+    lower = textOf("flow at most ", roundedDown(flow->flow * ratio * kMlPerCubicMetre), " mL/s");
   } else {
     const double pressure = std::get<PressureDriveSettings>(drive).inlet_pressure * ratio * ratio;
-    lower = textOf("inlet pressure to at most ", roundedDown(pressure / kPascalPerMmHg), " mmHg");
+    lower = textOf("inlet pressure at most ", roundedDown(pressure / kPascalPerMmHg), " mmHg");
   }
   return {StatusCode::invalid_argument,
-          textOf("wound would emit at ", column.speed, " m/s, above the ", column.limit,
-                 " m/s that the scene's speed of sound allows (c0 / mach_factor); lower the ", lower,
-                 ", enlarge the patch, or load the scene with design_speed_m_per_s of at least ", roundedUp(column.speed))};
+          // A reply holds 127 bytes: values first, then what to do.
+          textOf(column.speed, " m/s exceeds ", column.limit, " m/s: ", lower, ", or design_speed_m_per_s of at least ",
+                 roundedUp(column.speed))};
 }
 
 }  // namespace bleedsim::sph
