@@ -48,7 +48,7 @@ std::vector<Spoiled> spoiledWounds() {
          w.drive = PressureDriveSettings{100.0, 2.0};
        }},
       {"design_speed_m_per_s of at least", [](WoundDescription& w) { w.drive = FlowDrive{1e-3}; }},
-      {"inlet pressure to at most",
+      {"inlet pressure at most",
        [](WoundDescription& w) {
          w.drive = PressureDriveSettings{1e6, 0.61};
        }},
