@@ -4,16 +4,10 @@
 
 #include "service/daemon/simulation.h"
 #include "service/dds/command_limits.h"
+#include "service/dds/overloaded.h"
 
 namespace bleedsim::daemon {
 namespace {
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;  // clang 14 does not deduce aggregates by itself
 
 // One for the request at hand, one for the load that may end at any time.
 constexpr std::size_t kReplyReserve = 2;
@@ -27,9 +21,9 @@ void Simulation::drainInputs(TimePoint now) {
   // At most one queue full, so that a flood of input cannot keep the world from stepping.
   for (std::size_t i = 0; i < CommandQueue::kCapacity; ++i) {
     if (ended_ || channels_.replies.room() < kReplyReserve || !channels_.commands.tryPop(input_)) return;
-    std::visit(Overloaded{[&](dds::DecodedRequest& request) { carryOut(request, now); },
-                          [&](InstrumentInput& sample) { takeSample(sample); },
-                          [&](const WriterLost& lost) { endInstrumentsOf(lost.writer); }},
+    std::visit(dds::Overloaded{[&](dds::DecodedRequest& request) { carryOut(request, now); },
+                               [&](InstrumentInput& sample) { takeSample(sample); },
+                               [&](const WriterLost& lost) { endInstrumentsOf(lost.writer); }},
                input_);
   }
 }
@@ -57,7 +51,7 @@ Result<sph::Applied> Simulation::perform(dds::DecodedRequest& request, TimePoint
     return {};
   };
   return std::visit(
-      Overloaded{
+      dds::Overloaded{
           [&](const dds::Ping&) -> Result<sph::Applied> { return sph::Applied{}; },
           [&](const sph::AddWound& add) { return applyToWorld(add); },
           [&](const sph::UpdateWound& update) { return applyToWorld(update); },

@@ -3,6 +3,7 @@
 #include "service/dds/bounded_text.h"
 #include "service/dds/command_limits.h"
 #include "service/dds/frame_encoder.h"
+#include "service/dds/overloaded.h"
 #include "service/dds/units.h"
 #include "service/transport/clock.h"
 
@@ -12,13 +13,6 @@ namespace {
 constexpr std::size_t kMaxEffects = 64;
 
 bleed_v1_Vec3 toWire(const sph::Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;  // clang 14 does not deduce aggregates by itself
 
 }  // namespace
 
