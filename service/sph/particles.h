@@ -13,11 +13,20 @@ struct Particles {
   AlignedArray<Real> x, y, z;            ///< position / h, in the scene's frame
   AlignedArray<Real> vx, vy, vz;         ///< velocity, m/s
   AlignedArray<Real> inverse_viscosity;  ///< 1/(Pa s); empty unless viscosity differs between particles
+  AlignedArray<Real> platelet;           ///< P, 0 to 1; empty without platelets
+  AlignedArray<Real> radius;             ///< own support radius / h; empty without (34)
   AlignedArray<std::uint32_t> id;        ///< stable, never reused in a world
   AlignedArray<std::uint32_t> driver;    ///< 0: free; otherwise the tag of the wound's throat that moves the particle
 
+  /// The arrays that a scene calls for.
+  struct Fields {
+    bool viscosity = false;
+    bool platelet = false;
+    bool radius = false;
+  };
+
   Particles() = default;
-  Particles(std::size_t capacity, bool with_viscosity, unsigned lane)
+  Particles(std::size_t capacity, const Fields& fields, unsigned lane)
       : x{capacity, lane},
         y{capacity, lane + 1},
         z{capacity, lane + 2},
@@ -26,10 +35,12 @@ struct Particles {
         vz{capacity, lane + 5},
         id{capacity, lane + 6},
         driver{capacity, lane + 7} {
-    if (with_viscosity) inverse_viscosity = AlignedArray<Real>{capacity, lane + 8};
+    if (fields.viscosity) inverse_viscosity = AlignedArray<Real>{capacity, lane + 8};
+    if (fields.platelet) platelet = AlignedArray<Real>{capacity, lane + 9};
+    if (fields.radius) radius = AlignedArray<Real>{capacity, lane + 10};
   }
 
-  static constexpr unsigned kArrays = 9;
+  static constexpr unsigned kArrays = 11;
 
   void copyOne(std::size_t to, const Particles& source, std::size_t from) {
     x[to] = source.x[from];
@@ -41,6 +52,8 @@ struct Particles {
     id[to] = source.id[from];
     driver[to] = source.driver[from];
     if (!inverse_viscosity.empty()) inverse_viscosity[to] = source.inverse_viscosity[from];
+    if (!platelet.empty()) platelet[to] = source.platelet[from];
+    if (!radius.empty()) radius[to] = source.radius[from];
   }
 
   void swap(Particles& other) noexcept {
@@ -51,6 +64,8 @@ struct Particles {
     vy.swap(other.vy);
     vz.swap(other.vz);
     inverse_viscosity.swap(other.inverse_viscosity);
+    platelet.swap(other.platelet);
+    radius.swap(other.radius);
     id.swap(other.id);
     driver.swap(other.driver);
   }

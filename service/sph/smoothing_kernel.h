@@ -13,6 +13,15 @@ namespace bleedsim::sph {
 
 enum class KernelType { wendland_c2, cubic_spline };
 
+/// W = weight/h^3 x the polynomial, grad W = gradient/h^5 x its gradient, as passes/kernels-inl.h evaluates them; times 1/pi.
+struct KernelNorms {
+  double weight;
+  double gradient;
+};
+constexpr KernelNorms kernelNorms(KernelType type) {
+  return type == KernelType::cubic_spline ? KernelNorms{8.0, 48.0} : KernelNorms{10.5, 210.0};
+}
+
 struct SmoothingKernel {
   KernelType type = KernelType::wendland_c2;
   double h = 1.0;  ///< support radius, m

@@ -104,7 +104,7 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
 template <class Real>
 Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptions& options, SimdTarget target,
                                      const PassTable<Real>& table) {
-  const SmoothingKernel kernel{KernelType::wendland_c2, d.supportRadius()};
+  const SmoothingKernel kernel{d.kernel, d.supportRadius()};
   const RestLattice lattice = calibrateRestLattice(kernel, d.spacing, d.rest_density);
   Result<TissueField<Real>> tissue = TissueField<Real>::create(
       d.tissue, {.kernel = kernel, .spacing = d.spacing, .particle_mass = lattice.particle_mass, .rest_density = d.rest_density});
@@ -130,14 +130,15 @@ double speedOfSound(const WorldDescription& d) {
 
 Result<std::unique_ptr<World>> createWorld(const WorldDescription& description, const WorldOptions& options) {
   if (Status status = checkDescription(description, options); !status.ok()) return status;
+  const PassChoice choice = passChoice(description);
   if (options.precision == Precision::float64) {
     if (options.simd != SimdTarget::automatic && options.simd != SimdTarget::scalar) {
       return invalid("double precision is the reference and runs on the scalar target only; use scalar or auto");
     }
-    return build<double>(description, options, SimdTarget::scalar, referencePasses());
+    return build<double>(description, options, SimdTarget::scalar, referencePasses(choice));
   }
   const SimdTarget target = options.simd == SimdTarget::automatic ? availableSimdTargets().front() : options.simd;
-  const PassTable<float>* table = findPasses(target);
+  const PassTable<float>* table = findPasses(target, choice);
   if (table == nullptr) {
     std::string names;
     for (const SimdTarget available : availableSimdTargets())

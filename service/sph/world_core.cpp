@@ -22,8 +22,6 @@ std::array<Real, 3> inSupportRadii(const Vec3& v, double h) {
 
 std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-bool anyPeriodic(const Domain& domain) { return domain.periodic[0] || domain.periodic[1] || domain.periodic[2]; }
-
 }  // namespace
 
 template <class Real>
@@ -40,14 +38,12 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
             static_cast<Real>(6.25 * speed_of_sound_ * speed_of_sound_ / description.spacing)},
       limits_{timeStepLimits(description, speed_of_sound_)},
       executor_{makeExecutor(options.threads)},
-      particles_{description.capacity, pairSet(description).viscosity == ViscosityTerm::harmonic, 0},
-      sorted_{description.capacity, pairSet(description).viscosity == ViscosityTerm::harmonic, Particles<Real>::kArrays},
+      particles_{description.capacity, particleFields<Real>(description), 0},
+      sorted_{description.capacity, particleFields<Real>(description), Particles<Real>::kArrays},
       grid_{description.capacity,        asArray(description.domain.lower / h_),    asArray(description.domain.upper / h_),
             description.domain.periodic, kThroatMargin / description.support_ratio, options.threads},
       passes_{table,
-              pairSet(description),
-              anyPeriodic(description.domain),
-              !tissue.empty(),
+              pairLayout(description),
               pairConstants<Real>(description, lattice, speed_of_sound_),
               description.capacity,
               description.support_ratio,

@@ -10,10 +10,12 @@
 #include <variant>
 #include <vector>
 
+#include "service/sph/effect_settings.h"
+#include "service/sph/smoothing_kernel.h"
+
 namespace bleedsim::sph {
 
 using Vec2 = Eigen::Vector2d;
-using Vec3 = Eigen::Vector3d;
 
 /// The box that particles may be in, m. Leaving it through a side that is not periodic removes a particle.
 struct Domain {
@@ -27,27 +29,6 @@ struct Compressibility {
   double mach_factor = 10.0;
   double design_speed = 0.3;       ///< m/s
   double max_fall_or_depth = 0.0;  ///< H, m
-};
-
-struct GravitySettings {
-  Vec3 acceleration{0.0, 0.0, -9.81};  ///< m/s^2
-};
-struct PressureSettings {
-  double background_pressure = 0.0;  ///< Pa
-};
-struct ViscositySettings {
-  double viscosity = 0.00345;  ///< Pa s, of every particle that does not bring its own
-};
-struct AppliedForceSettings {
-  std::uint32_t max_sources = 64;
-};
-
-/// The presence of an effect's settings enables it.
-struct EffectSettings {
-  std::optional<GravitySettings> gravity;
-  std::optional<PressureSettings> pressure;
-  std::optional<ViscositySettings> viscosity;
-  std::optional<AppliedForceSettings> applied_force;
 };
 
 struct PlaneShape {
@@ -122,6 +103,7 @@ struct WorldDescription {
   std::uint32_t capacity = 0;    ///< most particles at any time
   double spacing = 0.001;        ///< dx, m
   double support_ratio = 2.0;    ///< h/dx
+  KernelType kernel = KernelType::wendland_c2;
   double rest_density = 1060.0;  ///< kg/m^3
   Compressibility compressibility;
   EffectSettings effects;

@@ -16,17 +16,29 @@ namespace bleedsim::sph {
 /// Wounds' throats may reach this far out of the domain, in spacings.
 constexpr double kThroatMargin = 16.0;
 
+/// Whether particles differ in viscosity: by their block, their shear rate, their platelets or their support radius.
+inline bool viscosityVaries(const WorldDescription& description) {
+  const EffectSettings& effects = description.effects;
+  if (!effects.viscosity) return false;
+  if (effects.platelets || effects.core_radius) return true;
+  if (!std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology)) return true;
+  for (const FluidBlock& block : description.fluid_blocks) {
+    if (block.viscosity && *block.viscosity != effects.viscosity->viscosity) return true;
+  }
+  return false;
+}
+
 /// The pair effects that a description enables, in their cheapest variant.
 inline PairSet pairSet(const WorldDescription& description) {
   PairSet set;
-  if (description.effects.pressure) set.pressure = PressureTerm::variational;
-  if (description.effects.viscosity) {
-    set.viscosity = ViscosityTerm::uniform;
-    for (const FluidBlock& block : description.fluid_blocks) {
-      if (block.viscosity && *block.viscosity != description.effects.viscosity->viscosity)
-        set.viscosity = ViscosityTerm::harmonic;
-    }
+  const EffectSettings& effects = description.effects;
+  if (effects.pressure) {
+    set.pressure = effects.pressure->form == PressureForm::symmetric ? PressureTerm::symmetric : PressureTerm::variational;
   }
+  set.platelets = effects.platelets.has_value();
+  set.repulsion = effects.repulsion.has_value();
+  set.core_radius = effects.core_radius.has_value();
+  if (effects.viscosity) set.viscosity = viscosityVaries(description) ? ViscosityTerm::harmonic : ViscosityTerm::uniform;
   return set;
 }
 
@@ -54,20 +66,47 @@ template <class Real>
 PairConstants<Real> pairConstants(const WorldDescription& description, const RestLattice& lattice, double speed_of_sound) {
   const double h = description.supportRadius();
   const double per_volume = lattice.particle_mass / (std::numbers::pi * h * h * h);
+  const KernelNorms norms = kernelNorms(description.kernel);
+  const double laplacian = 2.0 * norms.gradient * per_volume / (h * h) * lattice.viscosity_factor;
   PairConstants<Real> constants;
-  constants.mass_weight = static_cast<Real>(10.5 * per_volume);
+  constants.mass_weight = static_cast<Real>(norms.weight * per_volume);
   constants.rest_density = static_cast<Real>(description.rest_density);
   if (description.effects.pressure) {
     constants.stiffness = static_cast<Real>(speed_of_sound * speed_of_sound);
     constants.background = static_cast<Real>(description.effects.pressure->background_pressure);
-    constants.pressure_scale = static_cast<Real>(210.0 * per_volume / h);
+    constants.pressure_scale = static_cast<Real>(norms.gradient * per_volume / h);
   }
   if (description.effects.viscosity) {
-    const double scale = 420.0 * per_volume / (h * h) * lattice.viscosity_factor;
-    const bool harmonic = pairSet(description).viscosity == ViscosityTerm::harmonic;
-    constants.viscosity_scale = static_cast<Real>(scale * (harmonic ? 2.0 : description.effects.viscosity->viscosity));
+    const double mean = viscosityVaries(description) ? 2.0 : description.effects.viscosity->viscosity;
+    constants.viscosity_scale = static_cast<Real>(laplacian * mean);
+  }
+  if (description.effects.platelets) {
+    constants.platelet_scale = static_cast<Real>(0.5 * laplacian * description.effects.platelets->diffusivity);
+  }
+  if (const auto& repulsion = description.effects.repulsion) {
+    constants.repulsion_scale =
+        static_cast<Real>(repulsion->strength * speed_of_sound * speed_of_sound * description.spacing / (h * h));
+    constants.repulsion_contact = static_cast<Real>(repulsion->contact_distance * description.spacing / h);
+    constants.repulsion_damping = static_cast<Real>(repulsion->damping * speed_of_sound / description.spacing);
+    constants.repulsion_powers[0] = repulsion->power_1;
+    constants.repulsion_powers[1] = repulsion->power_2;
   }
   return constants;
+}
+
+inline PassChoice passChoice(const WorldDescription& description) {
+  const auto& periodic = description.domain.periodic;
+  return {description.kernel, periodic[0] || periodic[1] || periodic[2]};
+}
+
+inline PairLayout pairLayout(const WorldDescription& description) {
+  return {pairSet(description), !description.tissue.empty(), description.effects.surface_tension.has_value()};
+}
+
+/// The arrays that a description calls for.
+template <class Real>
+typename Particles<Real>::Fields particleFields(const WorldDescription& description) {
+  return {viscosityVaries(description), description.effects.platelets.has_value(), description.effects.core_radius.has_value()};
 }
 
 template <class Real>

@@ -8,20 +8,23 @@
 
 namespace bleedsim::test {
 
-/// Particles in SI units; `viscosity` (Pa s) is read by the harmonic term only.
+/// Particles in SI units; `viscosity` (Pa s) is read by the harmonic term only, `platelet` by their diffusion.
 struct OracleParticles {
   std::vector<sph::Vec3> position;
   std::vector<sph::Vec3> velocity;
   std::vector<double> viscosity;
+  std::vector<double> platelet;
 };
 
 struct OracleFields {
   std::vector<double> density;          ///< kg/m^3
-  std::vector<sph::Vec3> acceleration;  ///< m/s^2, of pressure and viscosity
+  std::vector<sph::Vec3> acceleration;  ///< m/s^2, of pressure, viscosity and repulsion
+  std::vector<double> platelet_rate;    ///< 1/s, of diffusion
   std::vector<int> neighbors;           ///< within the support, the particle itself included
 };
 
-/// Density (20), pressure (16)(19) and viscosity (25) as their headers in service/sph/effects state them, without tissue. Sees
+/// Density (20), pressure (16)(17)(19), viscosity (25), platelet diffusion (27) and repulsion (36) as their headers in
+/// service/sph/effects state them, without tissue and with one support radius for all. Sees
 /// the nearest image across periodic sides. O(n^2).
 OracleFields bruteForce(const sph::WorldDescription& description, sph::PairSet set, const OracleParticles& particles);
 

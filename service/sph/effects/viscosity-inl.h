@@ -2,8 +2,8 @@
 //
 // Equation (25) of the paper; Brookshaw 1985, Morris 1997; harmonic mean after Cleary & Monaghan 1999.
 //   a_i = sum_j m 2 mubar/(rho_i rho_j) (r_ij . grad_i W)/(r^2 + 0.01 h^2) (v_i - v_j)        mubar = 2 mu_i mu_j/(mu_i + mu_j)
-// terms: mu Pa s; v m/s. With t = 1 - q, (r . grad W)/(r^2 + 0.01 h^2) = -210/(pi h^5) q^2 t^3/(q^2 + 0.01); the prefactor
-// K = 420 m/(pi h^5) takes the rest-lattice factor on mu (rest_lattice.h).
+// terms: mu Pa s; v m/s. (r . grad W)/(r^2 + 0.01 h^2) = -norm/h^5 q^2 gradient(q)/(q^2 + 0.01) (kernels-inl.h); the prefactor
+// K = 2 m norm/h^5 takes the rest-lattice factor on mu (rest_lattice.h).
 // Deviation from the paper: its lap W of (33) with a mean of mu_i alone breaks Newton's third law; the Laplacian of Wendland C2
 // is negative near the middle. 1/mu is stored, so a pair costs one division.
 #if defined(BLEEDSIM_SPH_EFFECTS_VISCOSITY_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -16,16 +16,19 @@
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/passes/direct_search-inl.h"
 #include "service/sph/passes/pass_jobs.h"
-#include "service/sph/passes/wendland_c2-inl.h"
+#include "service/sph/passes/kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 
-template <class L, bool kPeriodic, bool kTissue>
+/// kRadius: every particle has a support radius of its own (34). A pair then weighs (W(h_i) + W(h_j))/2, and the lists reach as
+/// far as the largest radius.
+template <class L, template <class> class KernelOf, bool kPeriodic, bool kTissue, bool kRadius>
 class DensityPass {
  public:
   using Real = typename L::Scalar;
   using V = typename L::V;
+  using Kernel = KernelOf<L>;
 
   static void run(DensityJob<Real>& job) {
     DensityPass pass{job};
@@ -48,6 +51,9 @@ class DensityPass {
   };
 
   explicit DensityPass(DensityJob<Real>& job) : job_{job}, stride_{static_cast<std::uint32_t>(4 * job.groups)} {}
+
+  /// Squared search radius in support radii, a constant of the program where it is 1.
+  V reach2() const { return L::set(kRadius ? job_.reach2 : Real(1)); }
 
   void sweepRow(int row) {
     const std::uint32_t* start = job_.grid.start;
@@ -97,7 +103,7 @@ class DensityPass {
 
     int count = 0;
     const V zero = L::set(Real(0));
-    const V one = L::set(Real(1));
+    const V reach = reach2();
     for (int b = 0; b < blocks; ++b) {
       const std::uint32_t j = block_begin_[b];
       V x = L::loadUnaligned(job_.x + j);
@@ -114,7 +120,7 @@ class DensityPass {
       const V dz = L::max(L::max(lower[2] - z, z - upper[2]), zero);
       V q2 = L::mulAdd(dx, dx, L::tail(block_end_[b] - j));
       q2 = L::mulAdd(dz, dz, L::mulAdd(dy, dy, q2));
-      const auto near = L::below(q2, one);
+      const auto near = L::below(q2, reach);
       L::compress(x, near, x_ + count);
       L::compress(y, near, y_ + count);
       L::compress(z, near, z_ + count);
@@ -132,8 +138,8 @@ class DensityPass {
     if constexpr (kPeriodic) block_run_[at] = static_cast<std::uint8_t>(run_index);
   }
 
-  static void take(Hits& hits, V q2, typename L::Ids ids) {
-    const auto inside = L::below(q2, L::set(Real(1)));
+  void take(Hits& hits, V q2, typename L::Ids ids) const {
+    const auto inside = L::below(q2, reach2());
     L::compress(q2, inside, hits.q2 + hits.count);
     L::compress(ids, inside, hits.ids + hits.count);
     hits.count += L::countTrue(inside);
@@ -208,7 +214,7 @@ class DensityPass {
 
   /// Pads the list to whole vectors and records where it is; returns its length in vectors.
   int closeList(std::uint32_t i, Hits& hits) {
-    L::storeUnaligned(L::set(Real(1)), hits.q2 + hits.count);
+    L::storeUnaligned(reach2(), hits.q2 + hits.count);
     L::storeIds(L::setIds(job_.count * stride_), hits.ids + hits.count);
     const int length = (hits.count + kWidth - 1) / kWidth;
     job_.blocks[i] = static_cast<std::uint8_t>(length);
@@ -218,11 +224,12 @@ class DensityPass {
   }
 
   void evaluate(std::uint32_t first, std::uint32_t size) {
-    const V one = L::set(Real(1));
     for (std::uint32_t k = 0; k < size; ++k) {
       V sum = L::set(Real(0));
-      const Real* q2 = q2_ + kMaxNeighbors * k;
-      for (int v = 0; v < lengths_[k]; ++v) sum = sum + weightAt(q2 + v * kWidth, one);
+      if (lengths_[k] > 0) {
+        const std::uint32_t* list = job_.lists->entries + static_cast<std::size_t>(job_.list_at[first + k]) * kWidth;
+        addWeights(first + k, q2_ + kMaxNeighbors * k, list, lengths_[k], sum);
+      }
       L::store(sum, sums_ + k * kWidth);
     }
     for (std::uint32_t k = 0; k < size; k += kWidth) {
@@ -237,24 +244,24 @@ class DensityPass {
 
   void finish(std::uint32_t i, Real weight) const {
     Real density = job_.mass_weight * weight;
+    if constexpr (kRadius) density *= job_.density_factor[i];
     if constexpr (kTissue) density += job_.rest_density * job_.share[i];
     const Real inverse = Real(1) / density;
     const Real pressure = std::max(Real(0), job_.background + job_.stiffness * (density - job_.rest_density));
     Real* record = job_.record + static_cast<std::size_t>(i) * stride_;
-    record[kRecordPressure] = job_.pressure_scale * pressure * inverse * inverse;
+    record[kRecordPressure] = job_.pressure_scale * pressure * (job_.symmetric ? Real(0.5) : inverse * inverse);
     if (job_.groups > 1) record[kRecordInverseDensity] = inverse;
     job_.density[i] = density;
   }
 
   /// The path of a particle without a list: it has too many neighbours, or there is no room for more lists.
   void sumDirectly(const NeighborRun<Real>* runs, int run_count, std::uint32_t i) {
-    const V one = L::set(Real(1));
     V rows[kWidth];
     for (int r = 0; r < kWidth; ++r) rows[r] = L::set(Real(0));
     V sum = L::set(Real(0));
-    DirectSearch<L, kPeriodic>::run(job_, runs, run_count, i, stride_, [&](const Real* q2, const std::uint32_t*, int vectors) {
-      for (int v = 0; v < vectors; ++v) sum = sum + weightAt(q2 + v * kWidth, one);
-    });
+    DirectSearch<L, kPeriodic>::run(
+        job_, runs, run_count, i, stride_,
+        [&](const Real* q2, const std::uint32_t* list, int vectors) { addWeights(i, q2, list, vectors, sum); });
     rows[0] = sum;
     alignas(64) Real sums[kWidth];
     L::store(L::sums(rows), sums);
@@ -263,7 +270,25 @@ class DensityPass {
     finish(i, sums[0]);
   }
 
-  static V weightAt(const Real* q2, V one) { return WendlandC2<L>::weight(L::max(one - L::sqrt(L::load(q2)), L::set(Real(0)))); }
+  HWY_INLINE void addWeights([[maybe_unused]] std::uint32_t i, const Real* q2, [[maybe_unused]] const std::uint32_t* list,
+                             int vectors, V& sum) const {
+    if constexpr (!kRadius) {
+      for (int v = 0; v < vectors; ++v) sum = sum + Kernel::weight(L::load(q2 + v * kWidth));
+    } else {
+      const Real* own = job_.record + static_cast<std::size_t>(i) * stride_;
+      const V own_inverse2 = L::set(own[kRecordInverseRadius2]);
+      const V own_factor = L::set(own[kRecordRadiusFactor] / own[kRecordInverseRadius2]);  // (h/h_i)^3
+      for (int v = 0; v < vectors; ++v, list += kWidth) {
+        const V distance2 = L::load(q2 + v * kWidth);
+        V field[4];
+        L::gatherGroup(job_.record + kRecordInverseViscosity, list, field);
+        const V inverse2 = field[kRecordInverseRadius2 - kRecordInverseViscosity];
+        const V factor = field[kRecordRadiusFactor - kRecordInverseViscosity] / inverse2;
+        const V both = L::mulAdd(own_factor, Kernel::weight(distance2 * own_inverse2), factor * Kernel::weight(distance2 * inverse2));
+        sum = L::mulAdd(L::set(Real(0.5)), both, sum);
+      }
+    }
+  }
 
   DensityJob<Real>& job_;
   const std::uint32_t stride_;

@@ -28,7 +28,7 @@ class DirectSearch {
   using V = typename L::V;
 
   /// Calls consume(squared distances, record offsets, vectors) with the neighbours of particle i, padded to whole vectors with
-  /// q2 = 1 and the far dummy, record `count`. `job` has x, y, z and count.
+  /// q2 = reach2 and the far dummy, record `count`. `job` has x, y, z, reach2 and count.
   template <class Job, class Consume>
   static void run(const Job& job, const NeighborRun<Real>* runs, int run_count, std::uint32_t i, std::uint32_t stride,
                   const Consume& consume) {
@@ -49,7 +49,7 @@ class DirectSearch {
           z = z + L::set(runs[k].shift_z);
         }
         const V distance = distance2<L>(x - own_x, y - own_y, z - own_z) + L::tail(runs[k].end - j);
-        const auto inside = L::below(distance, L::set(Real(1)));
+        const auto inside = L::below(distance, L::set(job.reach2));
         L::compress(distance, inside, q2 + count);
         L::compress(L::idRow(j * stride, stride), inside, ids + count);
         count += L::countTrue(inside);
@@ -60,7 +60,7 @@ class DirectSearch {
         count -= kChunk;
       }
     }
-    L::storeUnaligned(L::set(Real(1)), q2 + count);
+    L::storeUnaligned(L::set(job.reach2), q2 + count);
     L::storeIds(L::setIds(job.count * stride), ids + count);
     consume(q2, ids, (count + kWidth - 1) / kWidth);
   }

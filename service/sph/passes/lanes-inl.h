@@ -52,6 +52,7 @@ struct WideLanes {
   static V round(V a) { return hn::Round(a); }
 
   static Mask below(V a, V b) { return hn::Lt(a, b); }
+  static V ifBelow(V a, V b, V yes, V no) { return hn::IfThenElse(hn::Lt(a, b), yes, no); }  ///< a < b ? yes : no
   static int countTrue(Mask m) { return static_cast<int>(hn::CountTrue(Tag{}, m)); }
 #if HWY_TARGET == HWY_AVX2
   // Highway 1.0.3 holds its table in a local constant, which GCC 12 copies to the stack at each use: 10x slower.
@@ -93,9 +94,9 @@ struct WideLanes {
     const V b = addPairs(addHalves(w[4], w[5]), addHalves(w[6], w[7]));
     return hn::Add(hn::ConcatLowerLower(Tag{}, b, a), hn::ConcatUpperUpper(Tag{}, b, a));
   }
-  /// Stores the sums of three vectors and a zero.
-  static void storeSums(V x, V y, V z, float* p) {
-    const V a = addPairs(addHalves(x, y), addHalves(z, hn::Zero(Tag{})));
+  /// Stores the sums of four vectors.
+  static void storeSums(V x, V y, V z, V w, float* p) {
+    const V a = addPairs(addHalves(x, y), addHalves(z, w));
     const hn::Half<Tag> half;
     hn::Store(hn::Add(hn::LowerHalf(half, a), hn::UpperHalf(half, a)), half, p);
   }
@@ -150,6 +151,7 @@ struct ScalarLanes {
   static V round(V a) { return std::nearbyint(a); }
 
   static Mask below(V a, V b) { return a < b; }
+  static V ifBelow(V a, V b, V yes, V no) { return a < b ? yes : no; }
   static int countTrue(Mask m) { return m ? 1 : 0; }
   static void compress(V v, Mask, Real* p) { *p = v; }
   static void compress(Ids v, Mask, std::uint32_t* p) { *p = v; }
@@ -159,14 +161,21 @@ struct ScalarLanes {
     for (int k = 0; k < 4; ++k) fields[k] = base[offsets[0] + static_cast<std::uint32_t>(k)];
   }
   static V sums(const V* w) { return w[0]; }
-  static void storeSums(V x, V y, V z, Real* p) {
+  static void storeSums(V x, V y, V z, V w, Real* p) {
     p[0] = x;
     p[1] = y;
     p[2] = z;
-    p[3] = Real(0);
+    p[3] = w;
   }
 };
 
+#endif
+
+/// What a target computes float32 in: the baseline target holds the scalar twin.
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+using TargetLanes = WideLanes;
+#else
+using TargetLanes = ScalarLanes<float>;
 #endif
 
 }  // namespace bleedsim::sph::HWY_NAMESPACE

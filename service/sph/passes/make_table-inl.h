@@ -6,7 +6,11 @@
 #define BLEEDSIM_SPH_PASSES_MAKE_TABLE_INL_H_
 #endif
 
+#include <utility>
+
+#include "service/sph/effects/platelets-inl.h"
 #include "service/sph/effects/pressure-inl.h"
+#include "service/sph/effects/repulsion-inl.h"
 #include "service/sph/effects/viscosity-inl.h"
 #include "service/sph/passes/density_pass-inl.h"
 #include "service/sph/passes/force_pass-inl.h"
@@ -15,30 +19,72 @@
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 
-template <class L, bool kPeriodic>
-constexpr std::array<ForceFunction<typename L::Scalar>, PairSet::kCount> forcePasses() {
-  using Pressure = VariationalPressure<L>;
-  using Uniform = Viscosity<L, false>;
-  using Harmonic = Viscosity<L, true>;
-  constexpr auto kNone = PressureTerm::none;
-  constexpr auto kVariational = PressureTerm::variational;
-  static_assert(PairSet::kCount <= 128, "an effect that needs more sets becomes a sweep of its own");
-  std::array<ForceFunction<typename L::Scalar>, PairSet::kCount> table{};
-  table[PairSet{kNone, ViscosityTerm::uniform}.index()] = &ForcePass<L, kPeriodic, Uniform>::run;
-  table[PairSet{kNone, ViscosityTerm::harmonic}.index()] = &ForcePass<L, kPeriodic, Harmonic>::run;
-  table[PairSet{kVariational, ViscosityTerm::none}.index()] = &ForcePass<L, kPeriodic, Pressure>::run;
-  table[PairSet{kVariational, ViscosityTerm::uniform}.index()] = &ForcePass<L, kPeriodic, Pressure, Uniform>::run;
-  table[PairSet{kVariational, ViscosityTerm::harmonic}.index()] = &ForcePass<L, kPeriodic, Pressure, Harmonic>::run;
-  return table;
+template <class... Effects>
+struct EffectTypes {
+  template <class... More>
+  constexpr EffectTypes<Effects..., More...> operator+(EffectTypes<More...>) const {
+    return {};
+  }
+};
+
+template <bool kPresent, class... Effects>
+constexpr auto effectsIf() {
+  if constexpr (kPresent)
+    return EffectTypes<Effects...>{};
+  else
+    return EffectTypes<>{};
 }
 
-template <class L>
+/// The effects of a set, in the order in which they act.
+template <class L, PairSet kSet>
+constexpr auto effectsOf() {
+  return effectsIf<kSet.pressure == PressureTerm::variational, VariationalPressure<L>>() +
+         effectsIf<kSet.pressure == PressureTerm::symmetric, SymmetricPressure<L>>() +
+         effectsIf<kSet.viscosity == ViscosityTerm::uniform, Viscosity<L, false>>() +
+         effectsIf<kSet.viscosity == ViscosityTerm::harmonic, Viscosity<L, true>>() +
+         effectsIf<kSet.platelets, PlateletDiffusion<L>>() + effectsIf<kSet.repulsion, Repulsion<L>>();
+}
+
+template <class L, template <class> class Kernel, bool kPeriodic, PairSet kSet, class... Effects>
+constexpr ForceFunction<typename L::Scalar> forcePass(EffectTypes<Effects...>) {
+  return &ListSweep<L, Kernel, kPeriodic, kSet.core_radius, ForceBody<L, Effects...>>::run;
+}
+
+/// Which sets a translation unit compiles: all of them, or pressure and viscosity alone.
+enum class SetRange { all, plain };
+
+template <class L, template <class> class Kernel, bool kPeriodic, SetRange kRange, std::size_t kIndex>
+constexpr ForceFunction<typename L::Scalar> passAt() {
+  constexpr PairSet kSet = PairSet::at(kIndex);
+  constexpr bool kPlain = !kSet.platelets && !kSet.repulsion && !kSet.core_radius;
+  if constexpr (kSet.empty() || !kSet.legal() || (kRange == SetRange::plain && !kPlain))
+    return nullptr;
+  else
+    return forcePass<L, Kernel, kPeriodic, kSet>(effectsOf<L, kSet>());
+}
+
+template <class L, template <class> class Kernel, bool kPeriodic, SetRange kRange>
+constexpr std::array<ForceFunction<typename L::Scalar>, PairSet::kCount> forcePasses() {
+  static_assert(PairSet::kCount <= 128, "an effect that needs more sets becomes a sweep of its own");
+  return []<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
+    return std::array<ForceFunction<typename L::Scalar>, PairSet::kCount>{passAt<L, Kernel, kPeriodic, kRange, kIndex>()...};
+  }(std::make_index_sequence<PairSet::kCount>{});
+}
+
+template <class L, template <class> class Kernel, bool kPeriodic, bool kTissue, SetRange kRange>
+constexpr std::array<DensityFunction<typename L::Scalar>, 2> densityPasses() {
+  if constexpr (kRange == SetRange::plain)
+    return {&DensityPass<L, Kernel, kPeriodic, kTissue, false>::run, nullptr};
+  else
+    return {&DensityPass<L, Kernel, kPeriodic, kTissue, false>::run, &DensityPass<L, Kernel, kPeriodic, kTissue, true>::run};
+}
+
+template <class L, template <class> class Kernel, bool kPeriodic, SetRange kRange>
 constexpr PassTable<typename L::Scalar> makeTable() {
   PassTable<typename L::Scalar> table;
   table.lanes = L::kWidth;
-  table.density = {{{&DensityPass<L, false, false>::run, &DensityPass<L, false, true>::run},
-                    {&DensityPass<L, true, false>::run, &DensityPass<L, true, true>::run}}};
-  table.force = {forcePasses<L, false>(), forcePasses<L, true>()};
+  table.density = {densityPasses<L, Kernel, kPeriodic, false, kRange>(), densityPasses<L, Kernel, kPeriodic, true, kRange>()};
+  table.force = forcePasses<L, Kernel, kPeriodic, kRange>();
   return table;
 }
 

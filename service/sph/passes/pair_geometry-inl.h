@@ -19,14 +19,19 @@ template <class L>
 struct Pair {
   typename L::V dx, dy, dz;                   ///< (x_j - x_i) / h
   typename L::V q2;                           ///< (r/h)^2
-  typename L::V gradient;                     ///< of the kernel, WendlandC2::gradient; 0 beyond the support
+  typename L::V gradient;                     ///< of the kernel (kernels-inl.h); 0 beyond the support
   typename L::V field[4 * kMaxRecordGroups];  ///< the neighbours' record fields
+  const std::uint32_t* list;                  ///< their record offsets
 };
 
-/// What the effects add to: the acceleration of particle i, m/s^2.
+/// What the effects add to: the acceleration of particle i, m/s^2, and the rate of its platelets, 1/s.
 template <class L>
 struct PairSums {
   typename L::V ax, ay, az;
+  typename L::V rate;
+
+  static PairSums zero() { return {L::set(0), L::set(0), L::set(0), L::set(0)}; }
+  void store(typename L::Scalar* p) const { L::storeSums(ax, ay, az, rate, p); }
 };
 
 /// An effect that acts inside the fused pair loop: built once for each particle from its record, then asked for each vector of

@@ -21,16 +21,30 @@ struct PairConstants {
   Real background = 0;
   Real pressure_scale = 0;
   Real viscosity_scale = 0;
+  Real platelet_scale = 0;
+  Real repulsion_scale = 0;
+  Real repulsion_contact = 0;
+  Real repulsion_damping = 0;
+  int repulsion_powers[2] = {6, 4};
+};
+
+/// What a world needs of the passes.
+struct PairLayout {
+  PairSet set;
+  bool tissue = false;
+  bool tension = false;  ///< the records hold the surface's normals
 };
 
 template <class Real>
 class PairPasses {
  public:
-  PairPasses(const PassTable<Real>& table, PairSet set, bool periodic, bool tissue, const PairConstants<Real>& constants,
-             std::uint32_t capacity, double support_ratio, int shares)
-      : density_function_{table.density[periodic ? 1 : 0][tissue ? 1 : 0]},
-        force_function_{table.force[periodic ? 1 : 0][set.index()]},
-        groups_{recordGroups(set)},
+  /// `table` must hold the layout's set of effects: createWorld checks it.
+  PairPasses(const PassTable<Real>& table, const PairLayout& layout, const PairConstants<Real>& constants, std::uint32_t capacity,
+             double support_ratio, int shares)
+      : density_function_{table.density[layout.tissue ? 1 : 0][layout.set.core_radius ? 1 : 0]},
+        force_function_{table.force[layout.set.index()]},
+        symmetric_{layout.set.pressure == PressureTerm::symmetric},
+        groups_{recordGroups(layout.set, layout.tension)},
         constants_{constants},
         record_{(std::size_t{capacity} + 1) * static_cast<std::size_t>(4 * groups_), 37},
         density_{capacity, 41},
@@ -57,15 +71,21 @@ class PairPasses {
       record[kRecordVy] = p.vy[i];
       record[kRecordVz] = p.vz[i];
     }
-    if (groups_ > 2) record[kRecordInverseViscosity] = p.inverse_viscosity[i];
+    if (groups_ > 2) {
+      record[kRecordInverseViscosity] = p.inverse_viscosity.empty() ? Real(1) : p.inverse_viscosity[i];
+      record[kRecordPlatelet] = p.platelet.empty() ? Real(0) : p.platelet[i];
+      const Real radius = p.radius.empty() ? Real(1) : p.radius[i];
+      const Real inverse2 = Real(1) / (radius * radius);
+      record[kRecordInverseRadius2] = inverse2;
+      record[kRecordRadiusFactor] = inverse2 * inverse2 / radius;
+    }
   }
 
   /// Densities, pressures and neighbour lists of the `count` sorted and packed particles; returns how many took the slow path.
   std::uint64_t density(const CellGrid<Real>& grid, const Particles<Real>& p, const Real* wall_share, std::uint32_t count,
                         int shares, Executor& executor) {
     Real* dummy = record_.data() + std::size_t{count} * static_cast<std::size_t>(4 * groups_);
-    for (int k = 0; k < 4 * groups_; ++k)
-      dummy[k] = k <= kRecordZ ? Real(1e6) : (k == kRecordInverseViscosity ? Real(1) : Real(0));
+    for (int k = 0; k < 4 * groups_; ++k) dummy[k] = dummyField(k);
     executor.run(shares, [&](int share) {
       NeighborLists& lists = lists_[static_cast<std::size_t>(share)];
       lists.used = 0;
@@ -84,6 +104,9 @@ class PairPasses {
       job.stiffness = constants_.stiffness;
       job.background = constants_.background;
       job.pressure_scale = constants_.pressure_scale;
+      job.symmetric = symmetric_;
+      job.reach2 = reach2_;
+      job.density_factor = density_factor_;
       job.lists = &lists;
       job.list_at = list_at_.data();
       job.blocks = blocks_.data();
@@ -99,29 +122,50 @@ class PairPasses {
 
   /// Accelerations by all pair effects; zero when the scene has none. `shares` as in density().
   void force(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int shares, Executor& executor) {
+    if (force_function_ == nullptr) {
+      executor.run(shares, [&](int share) {
+        const auto begin = grid.view().rowBegin(grid.firstRow(share, shares, count));
+        const auto end = grid.view().rowBegin(grid.firstRow(share + 1, shares, count));
+        std::fill(acceleration_.data() + 4 * std::size_t{begin}, acceleration_.data() + 4 * std::size_t{end}, Real(0));
+      });
+      return;
+    }
+    ForceJob<Real> job;
+    job.viscosity_scale = constants_.viscosity_scale;
+    job.platelet_scale = constants_.platelet_scale;
+    job.repulsion_scale = constants_.repulsion_scale;
+    job.repulsion_contact = constants_.repulsion_contact;
+    job.repulsion_damping = constants_.repulsion_damping;
+    std::copy_n(constants_.repulsion_powers, 2, job.repulsion_powers);
+    job.acceleration = acceleration_.data();
+    sweep(grid, p, count, shares, executor, force_function_, job);
+  }
+
+  /// Runs a walk over the lists that density() made: `function` with a copy of `job` for each share, its SweepJob part filled.
+  template <class Job>
+  void sweep(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int shares, Executor& executor,
+             void (*function)(const Job&), const Job& job) {
     executor.run(shares, [&](int share) {
-      ForceJob<Real> job;
-      job.grid = grid.view();
-      job.row_begin = grid.firstRow(share, shares, count);
-      job.row_end = grid.firstRow(share + 1, shares, count);
-      if (force_function_ == nullptr) {
-        std::fill(acceleration_.data() + 4 * std::size_t{job.grid.rowBegin(job.row_begin)},
-                  acceleration_.data() + 4 * std::size_t{job.grid.rowBegin(job.row_end)}, Real(0));
-        return;
-      }
-      job.count = count;
-      job.x = p.x.data();
-      job.y = p.y.data();
-      job.z = p.z.data();
-      job.record = record_.data();
-      job.entries = lists_[static_cast<std::size_t>(share)].entries;
-      job.list_at = list_at_.data();
-      job.blocks = blocks_.data();
-      job.viscosity_scale = constants_.viscosity_scale;
-      job.acceleration = acceleration_.data();
-      force_function_(job);
+      Job own = job;
+      own.grid = grid.view();
+      own.row_begin = grid.firstRow(share, shares, count);
+      own.row_end = grid.firstRow(share + 1, shares, count);
+      own.count = count;
+      own.x = p.x.data();
+      own.y = p.y.data();
+      own.z = p.z.data();
+      own.record = record_.data();
+      own.entries = lists_[static_cast<std::size_t>(share)].entries;
+      own.list_at = list_at_.data();
+      own.blocks = blocks_.data();
+      own.reach2 = reach2_;
+      own.groups = groups_;
+      function(own);
     });
   }
+
+  /// The packed record of particle i (RecordField), for stages that write into it.
+  Real* record(std::size_t i) { return record_.data() + i * static_cast<std::size_t>(4 * groups_); }
 
   Real* acceleration() { return acceleration_.data(); }
   const Real* acceleration() const { return acceleration_.data(); }
@@ -133,8 +177,16 @@ class PairPasses {
   }
 
  private:
+  /// The far dummy touches nothing and keeps every division defined.
+  static Real dummyField(int field) {
+    if (field <= kRecordZ) return Real(1e6);
+    const bool divisor = field == kRecordInverseViscosity || field == kRecordInverseRadius2 || field == kRecordRadiusFactor;
+    return divisor ? Real(1) : Real(0);
+  }
+
   DensityFunction<Real> density_function_;
   ForceFunction<Real> force_function_;
+  bool symmetric_;
   int groups_;
   PairConstants<Real> constants_;
   AlignedArray<Real> record_;
@@ -145,6 +197,8 @@ class PairPasses {
   std::vector<AlignedArray<std::uint32_t>> entries_;
   std::vector<NeighborLists> lists_;
   std::vector<std::uint64_t> overflowed_;
+  Real reach2_ = 1;                       // squared search radius / h^2
+  const Real* density_factor_ = nullptr;  // with (34)
 };
 
 }  // namespace bleedsim::sph

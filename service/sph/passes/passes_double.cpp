@@ -2,10 +2,22 @@
 #include "service/sph/passes/make_table-inl.h"
 
 namespace bleedsim::sph {
+namespace {
 
-const PassTable<double>& referencePasses() {
-  static constexpr PassTable<double> kTable = HWY_NAMESPACE::makeTable<HWY_NAMESPACE::ScalarLanes<double>>();
-  return kTable;
+template <template <class> class Kernel, HWY_NAMESPACE::SetRange kRange>
+const PassTable<double>& tableOf(bool periodic) {
+  using Lanes = HWY_NAMESPACE::ScalarLanes<double>;
+  static constexpr PassTable<double> kBounded = HWY_NAMESPACE::makeTable<Lanes, Kernel, false, kRange>();
+  static constexpr PassTable<double> kPeriodic = HWY_NAMESPACE::makeTable<Lanes, Kernel, true, kRange>();
+  return periodic ? kPeriodic : kBounded;
+}
+
+}  // namespace
+
+const PassTable<double>& referencePasses(const PassChoice& choice) {
+  if (choice.kernel == KernelType::cubic_spline)
+    return tableOf<HWY_NAMESPACE::CubicSpline, HWY_NAMESPACE::SetRange::plain>(choice.periodic);
+  return tableOf<HWY_NAMESPACE::WendlandC2, HWY_NAMESPACE::SetRange::all>(choice.periodic);
 }
 
 }  // namespace bleedsim::sph

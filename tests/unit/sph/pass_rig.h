@@ -18,25 +18,23 @@ namespace bleedsim::sph {
 template <class Real>
 class PassRig {
  public:
-  /// `description` says which effects act; its blocks are not seeded.
-  PassRig(const WorldDescription& description, const PassTable<Real>& table, const test::OracleParticles& particles,
+  /// `description` says which effects act; its blocks are not seeded. In double precision the target is the scalar twin.
+  PassRig(const WorldDescription& description, SimdTarget target, const test::OracleParticles& particles,
           int shares = 1)
       : h_{description.supportRadius()},
         capacity_{static_cast<std::uint32_t>(particles.position.size())},
         shares_{shares},
         executor_{makeExecutor(shares)},
-        placed_{capacity_, isHarmonic(description), 0},
-        sorted_{capacity_, isHarmonic(description), 9},
+        placed_{capacity_, particleFields<Real>(description), 0},
+        sorted_{capacity_, particleFields<Real>(description), Particles<Real>::kArrays},
         grid_{capacity_,
               asArray(description.domain.lower / h_),
               asArray(description.domain.upper / h_),
               description.domain.periodic,
               0.0,
               shares},
-        passes_{table,
-                pairSet(description),
-                description.domain.periodic[0] || description.domain.periodic[1] || description.domain.periodic[2],
-                false,
+        passes_{tableOf(description, target),
+                {.set = pairSet(description)},
                 pairConstants<Real>(description, latticeOf(description), speedOfSound(description)),
                 capacity_,
                 description.support_ratio,
@@ -52,18 +50,25 @@ class PassRig {
       particles.position.push_back(h_ * Vec3{double(placed_.x[i]), double(placed_.y[i]), double(placed_.z[i])});
       particles.velocity.push_back({double(placed_.vx[i]), double(placed_.vy[i]), double(placed_.vz[i])});
       if (!placed_.inverse_viscosity.empty()) particles.viscosity.push_back(1.0 / double(placed_.inverse_viscosity[i]));
+      if (!placed_.platelet.empty()) particles.platelet.push_back(double(placed_.platelet[i]));
     }
     return particles;
   }
   const std::vector<double>& density() const { return density_; }
   const std::vector<Vec3>& acceleration() const { return acceleration_; }
+  const std::vector<double>& plateletRate() const { return platelet_rate_; }
   std::uint64_t overflowed() const { return overflowed_; }
 
  private:
-  static bool isHarmonic(const WorldDescription& d) { return pairSet(d).viscosity == ViscosityTerm::harmonic; }
+  static const PassTable<Real>& tableOf(const WorldDescription& description, [[maybe_unused]] SimdTarget target) {
+    if constexpr (std::is_same_v<Real, double>)
+      return referencePasses(passChoice(description));
+    else
+      return *findPasses(target, passChoice(description));
+  }
   static std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
   static RestLattice latticeOf(const WorldDescription& d) {
-    return calibrateRestLattice({KernelType::wendland_c2, d.supportRadius()}, d.spacing, d.rest_density);
+    return calibrateRestLattice({d.kernel, d.supportRadius()}, d.spacing, d.rest_density);
   }
 
   void place(std::uint32_t i, const test::OracleParticles& particles) {
@@ -76,6 +81,7 @@ class PassRig {
     placed_.vz[i] = static_cast<Real>(particles.velocity[i].z());
     placed_.id[i] = i;
     if (!placed_.inverse_viscosity.empty()) placed_.inverse_viscosity[i] = static_cast<Real>(1.0 / particles.viscosity[i]);
+    if (!placed_.platelet.empty()) placed_.platelet[i] = static_cast<Real>(particles.platelet[i]);
   }
 
   void run() {
@@ -91,10 +97,12 @@ class PassRig {
     passes_.force(grid_, sorted_, count, shares_, *executor_);
     density_.resize(capacity_);
     acceleration_.resize(capacity_);
+    platelet_rate_.resize(capacity_);
     for (std::uint32_t k = 0; k < count; ++k) {
       const Real* a = passes_.acceleration() + std::size_t{k} * 4;
       density_[sorted_.id[k]] = static_cast<double>(passes_.density()[k]);
       acceleration_[sorted_.id[k]] = {double(a[0]), double(a[1]), double(a[2])};
+      platelet_rate_[sorted_.id[k]] = static_cast<double>(a[3]);
     }
   }
 
@@ -108,22 +116,27 @@ class PassRig {
   std::uint64_t overflowed_ = 0;
   std::vector<double> density_;
   std::vector<Vec3> acceleration_;
+  std::vector<double> platelet_rate_;
 };
 
-/// Every set of pair effects that is compiled.
+/// Every set of pair effects that is compiled, but (34): a support radius of its own needs a world around the passes.
 inline std::vector<PairSet> allPairSets() {
-  return {{PressureTerm::variational, ViscosityTerm::none},
-          {PressureTerm::none, ViscosityTerm::uniform},
-          {PressureTerm::none, ViscosityTerm::harmonic},
-          {PressureTerm::variational, ViscosityTerm::uniform},
-          {PressureTerm::variational, ViscosityTerm::harmonic}};
+  std::vector<PairSet> sets;
+  for (std::size_t k = 0; k < PairSet::kCount; ++k) {
+    const PairSet set = PairSet::at(k);
+    if (!set.empty() && set.legal() && !set.core_radius) sets.push_back(set);
+  }
+  return sets;
 }
 
 /// Turns the description's effects into those of `set`; it must have a block.
 inline WorldDescription withPairSet(WorldDescription description, PairSet set) {
   description.effects.pressure.reset();
   description.effects.viscosity.reset();
-  if (set.pressure == PressureTerm::variational) description.effects.pressure.emplace();
+  if (set.pressure != PressureTerm::none) description.effects.pressure.emplace();
+  if (set.pressure == PressureTerm::symmetric) description.effects.pressure->form = PressureForm::symmetric;
+  if (set.platelets) description.effects.platelets.emplace();
+  if (set.repulsion) description.effects.repulsion.emplace();
   if (set.viscosity != ViscosityTerm::none) description.effects.viscosity.emplace();
   if (set.viscosity == ViscosityTerm::harmonic) description.fluid_blocks.at(0).viscosity = 0.02;
   return description;
@@ -148,6 +161,7 @@ inline test::OracleParticles stirred(const WorldDescription& description) {
     const double y = random.next();
     particles.velocity.push_back(0.3 * Vec3{x, y, random.next()});
     particles.viscosity.push_back(0.011 + 0.01 * random.next());
+    particles.platelet.push_back(0.5 + 0.5 * random.next());
   }
   return particles;
 }
