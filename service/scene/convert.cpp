@@ -26,7 +26,7 @@ sph::Domain toDomain(const Domain& domain) {
 sph::EffectSettings toEffects(const Effects& effects) {
   sph::EffectSettings result;
   if (effects.has_gravity()) result.gravity = sph::GravitySettings{toVec3(effects.gravity().acceleration_m_per_s2())};
-  if (effects.has_pressure()) result.pressure = sph::PressureSettings{effects.pressure().background_pressure_pa()};
+  if (effects.has_pressure()) result.pressure = sph::PressureSettings{.background_pressure = effects.pressure().background_pressure_pa()};
   if (effects.has_viscosity()) result.viscosity = sph::ViscositySettings{effects.viscosity().viscosity_pa_s()};
   if (effects.has_applied_force()) result.applied_force = sph::AppliedForceSettings{effects.applied_force().max_sources()};
   return result;
