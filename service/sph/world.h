@@ -97,6 +97,16 @@ struct WorldStats {
   std::array<std::uint64_t, static_cast<int>(Counter::count)> counters{};
 };
 
+/// What a world has reserved, bytes. Everything is reserved at creation, for the capacity.
+struct MemoryUse {
+  std::size_t particles = 0;  ///< state, twice for the sort
+  std::size_t passes = 0;     ///< records, densities, accelerations
+  std::size_t lists = 0;      ///< neighbour lists
+  std::size_t grid = 0;
+  std::size_t tissue = 0;
+  std::size_t effects = 0;  ///< arrays that effects own beside the others
+};
+
 /// What apply() did.
 struct Applied {
   std::uint32_t object_id = 0;  ///< of the wound added or touched, 0: none
@@ -132,6 +142,7 @@ class World {
   virtual double speedOfSound() const = 0;  ///< m/s
   virtual double particleMass() const = 0;  ///< kg, calibrated on the rest lattice
   virtual bool faulted() const = 0;
+  virtual MemoryUse memory() const = 0;
 };
 
 /// Checks what only the solver can (capacity against blocks, wounds against tissue and speed of sound) and builds the world.

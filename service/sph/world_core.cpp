@@ -318,6 +318,17 @@ std::uint64_t WorldCore<Real>::stateHash() const {
   return hashState(particles_, count_, time_);
 }
 
+template <class Real>
+MemoryUse WorldCore<Real>::memory() const {
+  MemoryUse use;
+  use.particles = particles_.bytes() + sorted_.bytes();
+  use.passes = passes_.bytes();
+  use.lists = passes_.listBytes();
+  use.grid = grid_.bytes();
+  use.tissue = walls_.bytes();
+  return use;
+}
+
 template class WorldCore<float>;
 template class WorldCore<double>;
 

@@ -46,6 +46,7 @@ class WorldCore final : public World {
   double speedOfSound() const override { return speed_of_sound_; }
   double particleMass() const override { return lattice_.particle_mass; }
   bool faulted() const override { return faulted_; }
+  MemoryUse memory() const override;
 
  private:
   // The stages, in order.

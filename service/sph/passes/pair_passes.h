@@ -167,6 +167,15 @@ class PairPasses {
   /// The packed record of particle i (RecordField), for stages that write into it.
   Real* record(std::size_t i) { return record_.data() + i * static_cast<std::size_t>(4 * groups_); }
 
+  std::size_t bytes() const {
+    return record_.bytes() + density_.bytes() + acceleration_.bytes() + list_at_.bytes() + blocks_.bytes();
+  }
+  std::size_t listBytes() const {
+    std::size_t sum = 0;
+    for (const AlignedArray<std::uint32_t>& entries : entries_) sum += entries.bytes();
+    return sum;
+  }
+
   Real* acceleration() { return acceleration_.data(); }
   const Real* acceleration() const { return acceleration_.data(); }
   const Real* density() const { return density_.data(); }

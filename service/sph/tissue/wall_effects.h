@@ -36,6 +36,11 @@ class WallEffects {
   }
 
   bool empty() const { return field_.empty(); }
+  std::size_t bytes() const {
+    std::size_t sum = share_.bytes();
+    for (const AlignedArray<Touching>& list : touching_) sum += list.bytes();
+    return sum;
+  }
   const TissueField<Real>& field() const { return field_; }
   /// The tissue's share of density per particle; null without tissue.
   const Real* share() const { return share_.empty() ? nullptr : share_.data(); }
