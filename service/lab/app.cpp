@@ -1,0 +1,37 @@
+#include "service/lab/app.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+namespace bleedsim::lab {
+namespace {
+
+constexpr const char* kFooter =
+    "Progress and messages go to stderr, results to stdout; with --json stdout holds one JSON object and nothing else.\n"
+    "Exit codes: 0 done, 1 the solver failed or a file cannot be written, 2 wrong command line or scene.";
+
+}  // namespace
+
+ExitCode fail(ExitCode code, const std::string& message) {
+  fmt::print(stderr, "bleedlab: {}\n", message);
+  return code;
+}
+
+int runLab(int argc, const char* const* argv) {
+  Context context;
+  CLI::App app{"Experiments with the bleeding solver, without a service.", "bleedlab"};
+  app.set_version_flag("--version", std::string{"bleedlab "} + BLEEDSIM_VERSION);
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  addEffectsCommand(app, context);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    fmt::print(stderr, "bleedlab: {}\nSee 'bleedlab --help' for what is possible.\n", error.what());
+    return static_cast<int>(ExitCode::usage);
+  }
+  return static_cast<int>(context.action());
+}
+
+}  // namespace bleedsim::lab

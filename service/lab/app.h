@@ -1,0 +1,31 @@
+// bleedlab's command line.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace bleedsim::lab {
+
+/// Exit codes, documented in --help.
+enum class ExitCode : int {
+  done = 0,
+  failed = 1,  ///< the solver refused or failed, or a file cannot be written
+  usage = 2,   ///< wrong command line or scene
+};
+
+struct Context {
+  std::function<ExitCode()> action;  ///< of the command that was given
+};
+
+/// Prints "bleedlab: MESSAGE" to stderr and gives the code back.
+ExitCode fail(ExitCode code, const std::string& message);
+
+void addEffectsCommand(CLI::App& app, Context& context);
+
+int runLab(int argc, const char* const* argv);
+
+}  // namespace bleedsim::lab
