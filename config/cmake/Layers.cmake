@@ -8,6 +8,7 @@ set(BLEEDSIM_MAY_scene status idl sph)
 set(BLEEDSIM_MAY_transport status idl)
 set(BLEEDSIM_MAY_dds status idl transport sph)
 set(BLEEDSIM_MAY_recording status idl)
+set(BLEEDSIM_MAY_picture status)
 set(BLEEDSIM_MAY_daemon status idl dds transport scene sph)
 set(BLEEDSIM_MAY_client status idl transport recording)
 
