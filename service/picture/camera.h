@@ -45,7 +45,7 @@ Vec3 directionOf(NamedView view);
 struct FitOptions {
   Camera::Projection projection = Camera::Projection::perspective;
   double aspect = 4.0 / 3.0;        ///< width / height of the picture
-  double margin = 0.08;             ///< free on every side, as a part of the picture, in [0, 0.45]
+  double margin = 0.05;             ///< free on every side, as a part of the picture, in [0, 0.45]
   double field_of_view_deg = 30.0;  ///< perspective only
 };
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kLineStrength = 0.16;  // of the strong lines
 constexpr double kWeakStrength = 0.07;
+constexpr float kCutShade = 0.72F;  // of a cut through tissue
 
 /// How much of a line of about one and a half pixels covers the point, faded where lines come closer than six pixels.
 double lineAt(double at, double pitch, double pixel_m) {
@@ -31,6 +32,7 @@ Ground castGround(const View& view, const std::vector<Shape>& shapes, const Grou
   Surface& surface = ground.surface;
   ground.albedo.resize(surface.depth.size());
   const LinearColor tissue = toLinear(style.tissue);
+  const LinearColor cut = kCutShade * tissue;
   const LinearColor background = toLinear(style.background);
   for (int y = 0; y < surface.height; ++y) {
     const float height = (static_cast<float>(y) + 0.5F) / static_cast<float>(surface.height);
@@ -41,7 +43,10 @@ Ground castGround(const View& view, const std::vector<Shape>& shapes, const Grou
       if (shapes.empty()) continue;
       const Ray ray = view.rayThrough(x + 0.5, y + 0.5);
       const std::optional<ShapeHit> hit = hitShapes(shapes, ray);
-      if (!hit) continue;
+      if (!hit) {
+        if (cutsThrough(shapes, ray)) ground.albedo[i] = cut;
+        continue;
+      }
       surface.depth[i] = static_cast<float>(hit->depth);
       surface.normal[i] = view.directionToView(hit->normal).cast<float>();
       double grid = 0.0;

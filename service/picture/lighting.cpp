@@ -74,7 +74,7 @@ float mirrored(const Eigen::Vector3f& normal, const Eigen::Vector3f& to_eye, con
   const float facing = std::clamp(normal.dot(to_eye), 0.0F, 1.0F);
   const Eigen::Vector3f reflected = 2.0F * normal.dot(to_eye) * normal - to_eye;
   const float to_light = reflected.dot(light.towards.normalized());
-  const float room = 0.10F + 0.25F * smoothStep(-0.2F, 1.0F, reflected.y());
+  const float room = 0.04F + 0.10F * smoothStep(-0.2F, 1.0F, reflected.y());
   const float field = 7.0F * smoothStep(0.90F, 0.97F, to_light);
   const float grazing = 1.0F - facing;
   const float grazing2 = grazing * grazing;

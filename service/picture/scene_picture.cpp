@@ -19,12 +19,14 @@ constexpr double kLiquidRadius = 1.5;
 constexpr double kLiquidSigma = 1.3;
 constexpr double kLiquidRange = 3.0;
 // In these thicknesses light falls to 1/e. Red goes farther than green and blue: thin blood is red, deep blood nearly black.
-constexpr float kRedLength = 4.5F;
-constexpr float kOtherLength = 0.75F;
+constexpr float kRedLength = 2.2F;
+constexpr float kOtherLength = 0.32F;
+
+constexpr float kDeepShade = 0.45F;  // of deep blood, to a thin layer of it
 
 constexpr Material kSphereMaterial{0.28F, 36.0F};
 constexpr Material kLiquidMaterial{0.55F, 160.0F};
-constexpr Material kTissueMaterial{0.04F, 12.0F};
+constexpr Material kTissueMaterial{0.0F, 1.0F};
 
 Status invalid(const std::string& message) { return {StatusCode::invalid_argument, message}; }
 
@@ -97,8 +99,8 @@ class Painter {
   LinearColor surfaceColor(const LinearColor& albedo, const Eigen::Vector3f& normal, const Eigen::Vector3f& to_eye,
                            const Material& material, float occlusion) const {
     const Lit lit = lightOn(normal, to_eye, style_.light, material);
-    const float open = 1.0F - 0.75F * occlusion;
-    return albedo * (lit.ambient * open + lit.diffuse * (0.4F + 0.6F * open)) * 1.25F +
+    const float open = 1.0F - 0.65F * occlusion;
+    return albedo * (lit.ambient * open + lit.diffuse * (0.45F + 0.55F * open)) * 1.1F +
            LinearColor::Constant(lit.specular * open);
   }
 
@@ -124,10 +126,12 @@ class Painter {
     // Coloured by values it must not show the tissue's colour, nor darken with depth.
     if (!cloud_.values.empty()) passed = LinearColor::Constant(std::exp(-4.0F * thickness));
     LinearColor own = albedoOf(i);
-    if (cloud_.values.empty()) own *= 0.55F + 0.45F * std::exp(-0.25F * thickness);
-    const LinearColor scattered = own * (lit.ambient * open + lit.diffuse) * 1.15F;
-    const float mirror = mirrored(normal, to_eye, style_.light) * open;
-    return groundColor(i, to_eye) * passed + scattered * (1.0F - passed) + LinearColor::Constant(lit.specular * open + mirror);
+    if (cloud_.values.empty()) own *= kDeepShade + (1.0F - kDeepShade) * std::exp(-0.3F * thickness);
+    const LinearColor scattered = own * (lit.ambient * open + lit.diffuse);
+    // The rim of a thin layer is rounder than blood's: without this it would glitter.
+    const float body = 1.0F - std::exp(-2.0F * thickness);
+    const float glint = body * body * (lit.specular + mirrored(normal, to_eye, style_.light)) * open;
+    return groundColor(i, to_eye) * passed + scattered * (1.0F - passed) + LinearColor::Constant(glint);
   }
 
   const View& view_;

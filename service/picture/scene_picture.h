@@ -26,8 +26,8 @@ struct SceneStyle {
   int height = 600;  ///< pixels
   int samples = 2;   ///< per pixel and axis, 1 to 4: smooth edges for squared time
   BloodLook look = BloodLook::spheres;
-  Color blood{176, 12, 18};
-  Color tissue{226, 166, 146};
+  Color blood{168, 10, 16};
+  Color tissue{222, 168, 150};
   Color background{236, 238, 241};
   bool grid = true;             ///< lines on the tissue at round distances
   bool scale_bar = true;        ///< orthographic: exact everywhere; perspective: at the distance of the camera's target

@@ -38,13 +38,14 @@ Status check(const BowlShape& bowl) {
 
 /// Two unit axes in the plane; for a horizontal one x and y, so that grids follow the world.
 std::pair<Vec3, Vec3> tangentsOf(const Vec3& normal) {
+  if (normal.z() == 1.0) return {Vec3::UnitX(), Vec3::UnitY()};
   const Vec3 start = std::abs(normal.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
   const Vec3 u = (start - normal * normal.dot(start)).normalized();
   return {u, normal.cross(u)};
 }
 
 std::optional<ShapeHit> hit(const PlaneShape& plane, const Ray& ray) {
-  const Vec3 normal = plane.normal.normalized();
+  const Vec3 normal = plane.normal.z() == 1.0 && plane.normal.squaredNorm() == 1.0 ? plane.normal : plane.normal.normalized();
   const double slope = normal.dot(ray.direction);
   if (slope > -1e-9) return std::nullopt;
   const double depth = normal.dot(plane.point - ray.origin) / slope;
@@ -109,6 +110,20 @@ std::optional<ShapeHit> hit(const BowlShape& bowl, const Ray& ray) {
   return ShapeHit{depth, (center - at).normalized(), at.head<2>()};
 }
 
+// Of a horizontal line of sight; rounding of a camera's axes stays well below.
+constexpr double kEdgeOn = 1e-9;
+
+bool cutBy(const PlaneShape& plane, const Ray& ray) {
+  const Vec3 normal = plane.normal.normalized();
+  return std::abs(normal.dot(ray.direction)) < kEdgeOn && normal.dot(ray.origin - plane.point) < 0.0;
+}
+
+bool cutBy(const BoxShape&, const Ray&) { return false; }
+
+bool cutBy(const BowlShape& bowl, const Ray& ray) {
+  return std::abs(ray.direction.z()) < kEdgeOn && ray.origin.z() < bowl.rim_center.z();
+}
+
 }  // namespace
 
 Status checkShape(const Shape& shape) {
@@ -117,6 +132,13 @@ Status checkShape(const Shape& shape) {
 
 std::optional<ShapeHit> hitShape(const Shape& shape, const Ray& ray) {
   return std::visit([&ray](const auto& s) { return hit(s, ray); }, shape);
+}
+
+bool cutsThrough(std::span<const Shape> shapes, const Ray& ray) {
+  for (const Shape& shape : shapes) {
+    if (std::visit([&ray](const auto& s) { return cutBy(s, ray); }, shape)) return true;
+  }
+  return false;
 }
 
 std::optional<ShapeHit> hitShapes(std::span<const Shape> shapes, const Ray& ray) {

@@ -45,6 +45,9 @@ struct ShapeHit {
 
 /// The first hit at a depth above 0. The shape must have passed checkShape.
 std::optional<ShapeHit> hitShape(const Shape& shape, const Ray& ray);
+/// Whether the ray runs inside the tissue of a plane or bowl and parallel to its surface: a view from exactly the side shows a
+/// cut through it.
+bool cutsThrough(std::span<const Shape> shapes, const Ray& ray);
 /// The nearest hit of all.
 std::optional<ShapeHit> hitShapes(std::span<const Shape> shapes, const Ray& ray);
 
