@@ -49,10 +49,12 @@ std::string head(const std::string& title, const std::string& output, const Plot
       "set datafile separator comma\n"
       "set border 3 linecolor rgb '#404040' linewidth 1.2\n"
       "set tics nomirror\n"
-      "set grid xtics ytics linecolor rgb '#D8D8D8' linewidth 0.8 dashtype solid\n"
-      "set key outside below center horizontal samplen 2.5 width 1\n"
+      "set grid xtics ytics linetype 1 linecolor rgb '#D4D4D4' linewidth 0.7 dashtype solid\n"
+      "set key tmargin center horizontal Left reverse samplen 2.5 width 1\n"
       "set rmargin 4\n";
-  if (!title.empty()) script += joined("set title ", gnuplotString(title), "\n");
+  if (!title.empty()) {
+    script += joined("set title ", gnuplotString(title), " font 'sans,", std::to_string(text * 6 / 5), "'\n");
+  }
   return script;
 }
 
@@ -64,10 +66,16 @@ std::string axis(const char* name, const Axis& description, const Extent& data, 
   if (description.log) script += joined("set logscale ", name, " 10\nset format ", name, " '%g'\n");
   std::optional<double> lower = description.lower;
   std::optional<double> upper = description.upper;
-  const double room = description.log ? 0.0 : 0.06 * (std::max(data.high, lines.high) - std::min(data.low, lines.low));
+
   const double factor = description.log ? 1.25 : 1.0;
-  if (!lower && lines.low < data.low) lower = lines.low / factor - room;
-  if (!upper && lines.high > data.high) upper = lines.high * factor + room;
+  // Logarithmic ranges are always set: gnuplot's own end at whole decades, with up to a decade of nothing.
+  const double low = std::min(data.low, lines.low);
+  const double high = std::max(data.high, lines.high);
+  const double room = description.log ? 0.0 : 0.06 * (high - low);
+  if (!lower && (description.log || low < data.low)) lower = low / factor - room;
+  if (!upper && (description.log || high > data.high)) upper = high * factor + room;
+  // An end that was asked for may lie beyond all data.
+  if (lower && upper && !(*lower < *upper)) (description.lower ? upper : lower).reset();
   if (lower || upper) {
     script += joined("set ", name, "range [", lower ? number(*lower) : "*", ":", upper ? number(*upper) : "*", "]\n");
   }
@@ -84,7 +92,7 @@ std::string referenceLines(const std::vector<ReferenceLine>& lines) {
     const std::string to = vertical ? joined("first ", at, ", graph 1") : joined("graph 1, first ", at);
     script += joined("set arrow from ", from, " to ", to, " nohead front linecolor rgb '#606060' linewidth 1.4 dashtype 2\n");
     if (line.label.empty()) continue;
-    const std::string place = vertical ? joined("first ", at, ", graph 0.98 right rotate by 90 offset character -0.7,0")
+    const std::string place = vertical ? joined("first ", at, ", graph 0.98 right rotate by 90 offset character -1.0,0")
                                        : joined("graph 0.99, first ", at, " right offset character 0,0.5");
     script += joined("set label ", gnuplotString(line.label), " at ", place, " front textcolor rgb '#404040'\n");
   }
