@@ -10,6 +10,16 @@ constexpr const char* kFooter =
     "Progress and messages go to stderr, results to stdout; with --json stdout holds one JSON object and nothing else.\n"
     "Exit codes: 0 done, 1 the solver failed or a file cannot be written, 2 wrong command line or scene.";
 
+/// The commands that were possible where the command line ended; empty if it was complete.
+std::string commandsOf(const CLI::App& app) {
+  const CLI::App* last = &app;
+  while (!last->get_subcommands().empty()) last = last->get_subcommands().front();
+  std::string names;
+  for (const CLI::App* command : last->get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names.empty() ? "" : "The commands are " + names + ".\n";
+}
+
 }  // namespace
 
 ExitCode fail(ExitCode code, const std::string& message) {
@@ -24,11 +34,12 @@ int runLab(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.footer(kFooter);
   addEffectsCommand(app, context);
+  addPaperCommand(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "bleedlab: {}\nSee 'bleedlab --help' for what is possible.\n", error.what());
+    fmt::print(stderr, "bleedlab: {}\n{}See 'bleedlab --help' for what is possible.\n", error.what(), commandsOf(app));
     return static_cast<int>(ExitCode::usage);
   }
   return static_cast<int>(context.action());

@@ -22,8 +22,10 @@ struct Arguments {
 };
 
 nlohmann::json toJson(const VariantCost& cost) {
-  return {{"us_per_particle_step", cost.microseconds}, {"bytes_per_particle", cost.bytes},
-          {"list_bytes_per_particle", cost.list_bytes}, {"dt_s", cost.dt}};
+  return {{"us_per_particle_step", cost.microseconds},
+          {"bytes_per_particle", cost.bytes},
+          {"list_bytes_per_particle", cost.list_bytes},
+          {"dt_s", cost.dt}};
 }
 
 nlohmann::json toJson(const EffectCosts& costs, const Arguments& arguments) {
@@ -65,9 +67,11 @@ void printTable(const EffectCosts& costs, const Arguments& arguments) {
                effect.alone ? fmt::format("{:.1f}", 1e6 * alone.dt) : "-", effect.in_scene ? "on" : "off");
     if (!effect.refusal.empty()) fmt::print("{:<16} not measured: {}\n", "", effect.refusal);
   }
-  fmt::print("gravity and pressure alone: {:.4f} us, {:.0f} B (+ {:.0f} B of lists); all of the scene: {:.4f} us, {:.0f} B (+ {:.0f} B)\n",
-             costs.base.microseconds, costs.base.bytes, costs.base.list_bytes, costs.scene.microseconds, costs.scene.bytes,
-             costs.scene.list_bytes);
+  fmt::print(
+      "gravity and pressure alone: {:.4f} us, {:.0f} B (+ {:.0f} B of lists); all of the scene: {:.4f} us, {:.0f} B (+ {:.0f} "
+      "B)\n",
+      costs.base.microseconds, costs.base.bytes, costs.base.list_bytes, costs.scene.microseconds, costs.scene.bytes,
+      costs.scene.list_bytes);
 }
 
 Status drawChart(const EffectCosts& costs, const std::string& folder) {

@@ -57,6 +57,10 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   if (options.threads < 1 || options.threads > kMostThreads) {
     return invalid("threads is " + std::to_string(options.threads) + "; use 1 to " + std::to_string(kMostThreads));
   }
+  const auto& periodic = d.domain.periodic;
+  if (options.complete_search && (periodic[0] || periodic[1] || periodic[2])) {
+    return invalid("a complete search needs a domain without periodic sides");
+  }
   if (d.capacity < 1 || d.capacity > kMostParticles) {
     return invalid("capacity is " + std::to_string(d.capacity) + " particles; use 1 to " + std::to_string(kMostParticles));
   }

@@ -29,6 +29,10 @@ struct WorldOptions {
   int threads = 1;  ///< 1..64; results are bit-equal for any value
   SimdTarget simd = SimdTarget::automatic;
   Precision precision = Precision::float32;
+  /// Tests all pairs instead of the 27 cells around each particle, for measurements of what the cells gain: the step's cost goes
+  /// with the square of the count. All particles then stand in one cell, so one thread does all pair sums, and from about 1800
+  /// particles on no lists are kept and Counter::neighbor_overflow counts every particle-step. Not with periodic sides.
+  bool complete_search = false;
 };
 
 /// The stages of World::step, in order.

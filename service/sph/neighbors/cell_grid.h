@@ -42,9 +42,10 @@ class CellGrid {
 
   CellGrid() = default;
   /// `lower`, `upper`: the domain in support radii; particles may also stand up to `margin` outside of it (wounds' throats).
+  /// `one_cell`: all particles stand in one cell, of any size; without periodic sides only.
   CellGrid(std::uint32_t capacity, const std::array<double, 3>& lower, const std::array<double, 3>& upper,
-           const std::array<bool, 3>& periodic, double margin, int shares)
-      : cell_of_{capacity, 23} {
+           const std::array<bool, 3>& periodic, double margin, int shares, bool one_cell = false)
+      : one_cell_{one_cell}, cell_of_{capacity, 23} {
     view_.periodic = periodic;
     std::size_t most = 1;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -82,7 +83,7 @@ class CellGrid {
   void cover(const Bounds<Real>& bounds) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (view_.periodic[a]) continue;
-      if (bounds.lower[a] > bounds.upper[a]) {
+      if (one_cell_ || bounds.lower[a] > bounds.upper[a]) {
         origin_[a] = Real(0);
         view_.size[a] = 3;
         continue;
@@ -158,6 +159,7 @@ class CellGrid {
 
  private:
   GridView<Real> view_;
+  bool one_cell_ = false;
   std::array<Real, 3> origin_{};
   std::array<Real, 3> scale_{Real(1), Real(1), Real(1)};  ///< cells per support radius, <= 1
   std::array<Real, 3> lowest_{}, highest_{};              ///< what the grid covers at most, in support radii

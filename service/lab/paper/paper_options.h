@@ -1,0 +1,38 @@
+// What every experiment of the paper is told, and what it gives back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "service/sph/world.h"
+
+namespace bleedsim::lab {
+
+enum class ModelChoice { both, sound, literal };
+
+struct PaperOptions {
+  std::string scenes;               ///< folder of the scene files; empty: where they are expected (paper_scene.h)
+  std::string folder;               ///< for files, exists; empty: none are written
+  std::uint32_t particles = 20000;  ///< fig5, fig6, fig8
+  std::vector<std::uint32_t> counts{12000, 15000, 18000, 22000};  ///< table2
+  ModelChoice model = ModelChoice::both;
+  int threads = 1;
+  sph::SimdTarget simd = sph::SimdTarget::automatic;
+  double seconds = 1.0;  ///< table2: wall time of one measurement, s
+
+  sph::WorldOptions world() const { return {.threads = threads, .simd = simd}; }
+};
+
+/// Told what is done, 0 to 1.
+using ProgressReport = std::function<void(double)>;
+
+/// An experiment's result, for a program and for a reader.
+struct PaperReport {
+  nlohmann::json json = nlohmann::json::object();
+  std::string text;
+};
+
+}  // namespace bleedsim::lab

@@ -1,0 +1,190 @@
+// (16) against (17): cost, edges, energy.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "service/lab/paper/claims.h"
+#include "service/lab/paper/paper_kernel.h"
+
+namespace bleedsim::lab {
+namespace {
+
+constexpr double kAnyStep = std::numeric_limits<double>::infinity();
+
+sph::WorldDescription pressureAlone(const sph::WorldDescription& scene, sph::PressureForm form) {
+  sph::WorldDescription world = scene;
+  world.effects = {};
+  world.effects.gravity = scene.effects.gravity;
+  world.effects.pressure = scene.effects.pressure ? scene.effects.pressure : sph::PressureSettings{};
+  world.effects.pressure->form = form;
+  return world;
+}
+
+/// Median and its standard error, by the spread about it.
+Measured medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const double median = *middle;
+  for (double& value : values) value = std::abs(value - median);
+  std::nth_element(values.begin(), middle, values.end());
+  return {median, 1.4826 * *middle * std::sqrt(0.5 * std::numbers::pi / static_cast<double>(values.size()))};
+}
+
+/// Relative rms error, within one support radius of the face x = 0 of a half space x > 0 on a lattice of spacing 1, of the
+/// acceleration by the pressure p = x with rho0 = 1, whose exact value is -1.
+template <class Kernel, class Weight>
+std::array<double, 2> edgeErrors(const Kernel& slope, const Weight& weight, double h) {
+  const int reach = static_cast<int>(std::ceil(h));
+  const auto sumOver = [&](int column, auto&& add) {
+    for (int x = std::max(-reach, -column); x <= reach; ++x) {
+      for (int y = -reach; y <= reach; ++y) {
+        for (int z = -reach; z <= reach; ++z) {
+          const double r = std::sqrt(static_cast<double>(x * x + y * y + z * z));
+          if (r < h) add(x, r);
+        }
+      }
+    }
+  };
+  const int inside = 4 * reach;
+  double rest = 0.0;
+  sumOver(inside, [&](int, double r) { rest += weight(r); });
+  const double mass = 1.0 / rest;
+  std::vector<double> density(static_cast<std::size_t>(inside + reach + 1), 0.0);
+  for (int column = 0; column <= inside + reach; ++column)
+    sumOver(column, [&](int, double r) { density[static_cast<std::size_t>(column)] += mass * weight(r); });
+  std::array<double, 2> squares{};
+  int columns = 0;
+  for (int column = 0; column + 0.5 < h; ++column, ++columns) {
+    std::array<double, 2> acceleration{};
+    const double p = column + 0.5;
+    const double rho = density[static_cast<std::size_t>(column)];
+    sumOver(column, [&](int x, double r) {
+      if (r == 0.0) return;
+      const double other_p = p + x;
+      const double other_rho = density[static_cast<std::size_t>(column + x)];
+      const double gradient = slope(r) * -x / r;  // of W by the own position, along x
+      acceleration[0] -= mass * (p / (rho * rho) + other_p / (other_rho * other_rho)) * gradient;
+      acceleration[1] -= mass * (p + other_p) / (2.0 * rho * other_rho) * gradient;
+    });
+    for (std::size_t k = 0; k < 2; ++k) squares[k] += (acceleration[k] + 1.0) * (acceleration[k] + 1.0);
+  }
+  return {std::sqrt(squares[0] / columns), std::sqrt(squares[1] / columns)};
+}
+
+/// Kinetic and internal energy per mass, J/kg; p = p0 + k (rho - rho0) gives e = p0 (1/rho0 - 1/rho) + k (ln(rho/rho0) + rho0/rho
+/// - 1).
+struct Energies {
+  double kinetic = 0.0, whole = 0.0;
+};
+Energies energiesOf(const sph::World& world, sph::FrameBuffer& frame) {
+  world.copyFrame(frame, sph::kFrameVelocity | sph::kFrameDensity);
+  const double rho0 = world.description().rest_density;
+  const double p0 = world.description().effects.pressure->background_pressure;
+  const double k = world.speedOfSound() * world.speedOfSound();
+  Energies energies;
+  for (std::size_t i = 0; i < frame.count; ++i) {
+    double speed2 = 0.0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double v = static_cast<double>(frame.velocity[3 * i + a]);
+      speed2 += v * v;
+    }
+    const double ratio = static_cast<double>(frame.density[i]) / rho0;
+    energies.kinetic += 0.5 * speed2;
+    energies.whole += 0.5 * speed2 + p0 / rho0 * (1.0 - 1.0 / ratio) + k * (std::log(ratio) + 1.0 / ratio - 1.0);
+  }
+  energies.kinetic /= frame.count;
+  energies.whole /= frame.count;
+  return energies;
+}
+
+/// |E - E0| by the end over the kinetic energy at the start.
+Result<double> energyDrift(const sph::WorldDescription& box, sph::PressureForm form, const PaperOptions& options) {
+  auto world = sph::createWorld(pressureAlone(box, form), options.world());
+  if (!world) return world.status();
+  sph::FrameBuffer frame;
+  frame.reserve(box.capacity, sph::kFrameVelocity | sph::kFrameDensity);
+  const Energies start = energiesOf(**world, frame);
+  const double end = 200.0 * box.spacing / (*world)->speedOfSound();
+  while ((*world)->time() < end) {
+    if (Status status = (*world)->step(kAnyStep); !status.ok()) return status;
+  }
+  return std::abs(energiesOf(**world, frame).whole - start.whole) / start.kinetic;
+}
+
+}  // namespace
+
+Result<Claim> pressureCostClaim(const sph::WorldDescription& pool, const PaperOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::array kForms{sph::PressureForm::symmetric, sph::PressureForm::variational};
+  std::array<std::unique_ptr<sph::World>, 2> worlds;
+  std::array<std::vector<double>, 2> seconds;
+  for (std::size_t k = 0; k < 2; ++k) {
+    auto world = sph::createWorld(pressureAlone(pool, kForms[k]), options.world());
+    if (!world) return world.status();
+    worlds[k] = std::move(*world);
+  }
+  constexpr int kTurns = 41;
+  constexpr int kSteps = 5;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Clock::time_point start = Clock::now();
+      for (int step = 0; step < kSteps; ++step) {
+        if (Status status = worlds[k]->step(kAnyStep); !status.ok()) return status;
+      }
+      const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+      seconds[k].push_back(1e6 * spent / kSteps / worlds[k]->particleCount());
+    }
+  }
+  Claim claim{.sentence = "(16) costs more than (17)",
+              .figure = "us per particle and step",
+              .with = "(17)",
+              .without = "(16)",
+              .claimed = Direction::larger,
+              .evidence = {compare("sound", medianOf(seconds[0]), medianOf(seconds[1]), Direction::larger)},
+              .verdict = Verdict::depends};
+  conclude(claim);
+  return claim;
+}
+
+Claim edgeErrorClaim() {
+  Claim claim{.sentence = "(17) is more accurate at edges",
+              .figure = "rms error of the acceleration within h of a face",
+              .with = "(17)",
+              .without = "(16)",
+              .claimed = Direction::larger,
+              .evidence = {},
+              .verdict = Verdict::depends};
+  constexpr double kSupport = 2.0;
+  const auto add = [&](const char* name, const std::array<double, 2>& errors) {
+    claim.evidence.push_back(compare(name, Measured{errors[1], 0.0}, Measured{errors[0], 0.0}, Direction::larger));
+  };
+  const sph::SmoothingKernel wendland{sph::KernelType::wendland_c2, kSupport};
+  add("Wendland", edgeErrors([&](double r) { return wendland.slope(r); }, [&](double r) { return wendland.value(r); }, kSupport));
+  const PaperKernel spiky{PaperKernel::Type::spiky, kSupport};
+  const PaperKernel poly6{PaperKernel::Type::poly6, kSupport};
+  add("paper's", edgeErrors([&](double r) { return spiky.slope(r); }, [&](double r) { return poly6.value(r); }, kSupport));
+  conclude(claim);
+  return claim;
+}
+
+Result<Claim> energyClaim(const sph::WorldDescription& box, const PaperOptions& options) {
+  const auto symmetric = energyDrift(box, sph::PressureForm::symmetric, options);
+  if (!symmetric) return symmetric.status();
+  const auto variational = energyDrift(box, sph::PressureForm::variational, options);
+  if (!variational) return variational.status();
+  Claim claim{.sentence = "(17) is more accurate: it keeps energy better",
+              .figure = "|E - E0|/K0 of an inviscid periodic box",
+              .with = "(17)",
+              .without = "(16)",
+              .claimed = Direction::larger,
+              .evidence = {compare("sound", Measured{*symmetric, 0.0}, Measured{*variational, 0.0}, Direction::larger)},
+              .verdict = Verdict::depends};
+  conclude(claim);
+  return claim;
+}
+
+}  // namespace bleedsim::lab
