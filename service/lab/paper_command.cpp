@@ -103,7 +103,7 @@ void addOptions(CLI::App& command, Arguments& arguments, bool grows, bool counts
         ->capture_default_str()
         ->delimiter(',')
         ->check(CLI::Range(100U, 200000U));
-    command.add_option("--seconds", options.seconds, "Wall time of each measurement, s")
+    command.add_option("--seconds", options.seconds, "Wall time of the measurements, s")
         ->capture_default_str()
         ->check(CLI::Range(0.01, 3600.0));
   }

@@ -179,7 +179,8 @@ Result<std::vector<Fig5Run>> runFig5Variants(const sph::WorldDescription& scene,
     const auto model = inModel(scene, face);
     for (const Fig5Variant& variant : kFig5Variants) {
       std::string refusal = model ? "" : model.status().message();
-      if (face.literal && !variant.radius && variant.tension) refusal = "the literal model has no (34) that could be switched off";
+      if (face.literal && !variant.radius && variant.tension)
+        refusal = "the literal model has no (34) that could be switched off";
       if (refusal.empty()) {
         sph::WorldDescription world = *model;
         world.effects = effectsOf(model->effects, variant);

@@ -15,8 +15,7 @@
 namespace bleedsim::lab {
 namespace {
 
-constexpr int kWarmUpSteps = 2;
-constexpr std::uint32_t kMostSteps = 400;
+constexpr int kMeshSteps = 5;  // in a turn
 constexpr double kAnyStep = std::numeric_limits<double>::infinity();
 
 struct PaperRates {
@@ -50,32 +49,50 @@ Result<sph::WorldDescription> bodyOf(const sph::WorldDescription& scene, std::ui
   return body;
 }
 
-Result<RateRow> measure(const sph::WorldDescription& body, Search search, const PaperOptions& options) {
-  using Clock = std::chrono::steady_clock;
-  sph::WorldOptions world_options = options.world();
-  world_options.complete_search = search == Search::complete;
-  auto world = sph::createWorld(body, world_options);
-  if (!world) return world.status();
-  std::vector<double> seconds;
-  const Clock::time_point begin = Clock::now();
-  const auto elapsed = [&](Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); };
-  for (int step = 0; seconds.empty() || (elapsed(begin) < options.seconds && seconds.size() < kMostSteps); ++step) {
-    const Clock::time_point start = Clock::now();
-    if (Status status = (*world)->step(kAnyStep); !status.ok()) return status;
-    if (step >= kWarmUpSteps) seconds.push_back(elapsed(start));
+/// One body under one search, stepped in turns with the others, so that a busy machine slows all of them alike.
+class Runner {
+ public:
+  static Result<Runner> create(const sph::WorldDescription& body, Search search, const PaperOptions& options) {
+    sph::WorldOptions world_options = options.world();
+    world_options.complete_search = search == Search::complete;
+    auto world = sph::createWorld(body, world_options);
+    if (!world) return world.status();
+    return Runner{std::move(*world), search};
   }
-  sph::WorldStats stats;
-  (*world)->collectStats(stats);
-  std::sort(seconds.begin(), seconds.end());
-  RateRow row;
-  row.particles = stats.particles;
-  row.search = search;
-  row.rate = 1.0 / seconds[seconds.size() / 2];
-  row.dt = stats.dt;
-  row.paper_rate = paperRate(stats.particles, search);
-  row.steps = static_cast<std::uint32_t>(seconds.size());
-  return row;
-}
+
+  Status turn() {
+    using Clock = std::chrono::steady_clock;
+    const int steps = search_ == Search::complete ? 1 : kMeshSteps;
+    const Clock::time_point start = Clock::now();
+    for (int step = 0; step < steps; ++step) {
+      if (Status status = world_->step(kAnyStep); !status.ok()) return status;
+    }
+    seconds_.push_back(std::chrono::duration<double>(Clock::now() - start).count() / steps);
+    return {};
+  }
+
+  RateRow row() const {
+    std::vector<double> sorted = seconds_;
+    std::sort(sorted.begin(), sorted.end());
+    sph::WorldStats stats;
+    world_->collectStats(stats);
+    RateRow row;
+    row.particles = stats.particles;
+    row.search = search_;
+    row.rate = 1.0 / sorted[sorted.size() / 2];
+    row.dt = stats.dt;
+    row.paper_rate = paperRate(stats.particles, search_);
+    row.steps = static_cast<std::uint32_t>(stats.step);
+    return row;
+  }
+
+ private:
+  Runner(std::unique_ptr<sph::World> world, Search search) : world_{std::move(world)}, search_{search} {}
+
+  std::unique_ptr<sph::World> world_;
+  Search search_;
+  std::vector<double> seconds_;
+};
 
 PowerFit fitOf(const std::vector<RateRow>& rows, Search search) {
   std::vector<double> counts;
@@ -177,19 +194,27 @@ picture::LinePlot plotOf(const RateTable& table) {
 bool isInverse(const PowerFit& fit) { return std::abs(fit.exponent + 1.0) <= 0.1 && fit.r2 >= 0.98; }
 
 Result<RateTable> measureRates(const sph::WorldDescription& scene, const PaperOptions& options, const ProgressReport& progress) {
-  RateTable table;
-  const double parts = 2.0 * static_cast<double>(options.counts.size());
-  double done = 0.0;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  std::vector<Runner> runners;
   for (const std::uint32_t particles : options.counts) {
     const auto body = bodyOf(scene, particles);
     if (!body) return body.status();
     for (const Search search : {Search::complete, Search::mesh}) {
-      auto row = measure(*body, search, options);
-      if (!row) return row.status();
-      table.rows.push_back(*row);
-      progress(++done / parts);
+      auto runner = Runner::create(*body, search, options);
+      if (!runner) return runner.status();
+      runners.push_back(std::move(*runner));
     }
   }
+  for (double part = 0.0; part < 1.0;) {
+    for (Runner& runner : runners) {
+      if (Status status = runner.turn(); !status.ok()) return status;
+    }
+    part = std::chrono::duration<double>(Clock::now() - start).count() / options.seconds;
+    progress(std::min(part, 1.0));
+  }
+  RateTable table;
+  for (const Runner& runner : runners) table.rows.push_back(runner.row());
   if (options.counts.size() > 1) {
     for (const Search search : {Search::complete, Search::mesh})
       table.fits.push_back({.search = search, .ours = fitOf(table.rows, search), .paper = paperFit(search)});

@@ -41,7 +41,8 @@ struct RateTable {
 /// Whether a fit says "inversely proportional": an exponent of -1 +- 0.1 that explains 98 % of the variance.
 bool isInverse(const PowerFit& fit);
 
-/// The fluid and effects of the scene, its first block cut to the height that holds each count; the two searches in turn.
+/// The fluid and effects of the scene, its first block cut to the height that holds each count; all counts and both
+/// searches in turns, until the options' seconds are over.
 Result<RateTable> measureRates(const sph::WorldDescription& scene, const PaperOptions& options, const ProgressReport& progress);
 
 Result<PaperReport> runTable2(const PaperOptions& options, const ProgressReport& progress);
