@@ -69,7 +69,7 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   }
   if (Status status = checkEffects(d.effects); !status.ok()) return status;
   const double h = d.supportRadius();
-  const double c0 = speedOfSound(d);
+  const double c0 = options.speed_of_sound.value_or(speedOfSound(d));
   if (!(c0 > 0.0) || !std::isfinite(c0)) return invalid("the speed of sound must be greater than 0 m/s: set a design speed");
   double cells = 1.0;
   for (Eigen::Index a = 0; a < 3; ++a) {
@@ -156,6 +156,8 @@ void FrameBuffer::reserve(std::uint32_t capacity, std::uint32_t attributes_wante
   velocity.resize(attributes_wanted & kFrameVelocity ? 3 * n : 0);
   density.resize(attributes_wanted & kFrameDensity ? n : 0);
   viscosity.resize(attributes_wanted & kFrameViscosity ? n : 0);
+  platelet.resize(attributes_wanted & kFramePlatelet ? n : 0);
+  radius.resize(attributes_wanted & kFrameRadius ? n : 0);
 }
 
 std::string_view stageName(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }

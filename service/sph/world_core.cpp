@@ -20,6 +20,9 @@ std::array<Real, 3> inSupportRadii(const Vec3& v, double h) {
   return {static_cast<Real>(v.x() / h), static_cast<Real>(v.y() / h), static_cast<Real>(v.z() / h)};
 }
 
+// Pairs that are in contact when repulsion is switched on would burst apart: contacts grow from nothing over this time, in dx/c0.
+constexpr double kContactGrowth = 200.0;
+
 std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -29,7 +32,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
                            const PassTable<Real>& table, const RestLattice& lattice, TissueField<Real> tissue)
     : description_{description},
       target_{target},
-      speed_of_sound_{sph::speedOfSound(description)},
+      speed_of_sound_{options.speed_of_sound.value_or(sph::speedOfSound(description))},
       lattice_{lattice},
       h_{description.supportRadius()},
       domain_{inSupportRadii<Real>(description.domain.lower, h_), inSupportRadii<Real>(description.domain.upper, h_),
@@ -193,6 +196,8 @@ void WorldCore<Real>::computeAccelerations() {
   clock_.lap(Stage::tissue);
   counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
   clock_.lap(Stage::density);
+  const double growth_time = kContactGrowth * description_.spacing / speed_of_sound_;
+  passes_.setContactGrowth(static_cast<Real>(std::min(1.0, (time_ - repulsion_start_) / growth_time)));
   passes_.force(grid_, particles_, count_, shares_, *executor_);
   clock_.lap(Stage::force);
   walls_.addForces(particles_, passes_, shares_, *executor_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,6 +42,7 @@ class WorldCore final : public World {
   std::span<const WoundState> wounds() const override { return wounds_.states(); }
   void copyFrame(FrameBuffer& frame, std::uint32_t attributes) const override;
   std::uint64_t stateHash() const override;
+  Status adopt(World& world) override;
   const WorldDescription& description() const override { return description_; }
   SimdTarget simdTarget() const override { return target_; }
   double speedOfSound() const override { return speed_of_sound_; }
@@ -91,6 +93,7 @@ class WorldCore final : public World {
   double last_dt_ = 0.0;
   double next_dt_ = 0.0;
   double max_speed_ = 0.0;
+  double repulsion_start_ = -std::numeric_limits<double>::infinity();  // simulated time at which it was switched on, s
   bool faulted_ = false;
   StageClock clock_;
   std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> counters_{};

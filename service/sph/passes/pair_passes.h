@@ -133,8 +133,8 @@ class PairPasses {
     ForceJob<Real> job;
     job.viscosity_scale = constants_.viscosity_scale;
     job.platelet_scale = constants_.platelet_scale;
-    job.repulsion_scale = constants_.repulsion_scale;
-    job.repulsion_contact = constants_.repulsion_contact;
+    job.repulsion_scale = growth_ * growth_ * growth_ * constants_.repulsion_scale;
+    job.repulsion_contact = growth_ * constants_.repulsion_contact;
     job.repulsion_damping = constants_.repulsion_damping;
     std::copy_n(constants_.repulsion_powers, 2, job.repulsion_powers);
     job.acceleration = acceleration_.data();
@@ -171,6 +171,14 @@ class PairPasses {
   const Real* acceleration() const { return acceleration_.data(); }
   const Real* density() const { return density_.data(); }
   void moveDensity(std::size_t to, std::size_t from) { density_[to] = density_[from]; }
+  /// The contact distance of repulsion over its own, 0 to 1. Contacts stay as stiff as they are: force over distance goes with
+  /// the strength over the distance's cube.
+  void setContactGrowth(Real growth) { growth_ = growth; }
+  /// Takes the densities and accelerations of passes of the same capacity.
+  void adopt(PairPasses& from) {
+    density_.swap(from.density_);
+    acceleration_.swap(from.acceleration_);
+  }
   /// Of the equation of state, Pa.
   Real pressureAt(Real density) const {
     return std::max(Real(0), constants_.background + constants_.stiffness * (density - constants_.rest_density));
@@ -189,6 +197,7 @@ class PairPasses {
   bool symmetric_;
   int groups_;
   PairConstants<Real> constants_;
+  Real growth_ = 1;  // of the contact distance
   AlignedArray<Real> record_;
   AlignedArray<Real> density_;       // kg/m^3
   AlignedArray<Real> acceleration_;  // 4 per particle, m/s^2
