@@ -33,7 +33,7 @@ OracleFields bruteForce(const sph::WorldDescription& d, sph::PairSet set, const 
   fields.density.assign(n, 0.0);
   fields.acceleration.assign(n, Vec3::Zero());
   fields.neighbors.assign(n, 0);
-  const auto forEachNeighbor = [&](std::size_t i, auto&& visit) {
+  const auto for_each_neighbor = [&](std::size_t i, auto&& visit) {
     for (std::size_t j = 0; j < n; ++j) {
       const Vec3 offset = nearestOffset(d.domain, particles.position[i] - particles.position[j]);
       const double r = offset.norm();
@@ -41,22 +41,22 @@ OracleFields bruteForce(const sph::WorldDescription& d, sph::PairSet set, const 
     }
   };
   for (std::size_t i = 0; i < n; ++i) {
-    forEachNeighbor(i, [&](std::size_t, const Vec3&, double r) {
+    for_each_neighbor(i, [&](std::size_t, const Vec3&, double r) {
       fields.density[i] += mass * kernel.value(r);
       ++fields.neighbors[i];
     });
   }
-  const auto pressureTerm = [&](std::size_t i) {
+  const auto pressure_term = [&](std::size_t i) {
     const double background = d.effects.pressure ? d.effects.pressure->background_pressure : 0.0;
     const double density = fields.density[i];
     return std::max(0.0, background + c0 * c0 * (density - d.rest_density)) / (density * density);
   };
   for (std::size_t i = 0; i < n; ++i) {
-    forEachNeighbor(i, [&](std::size_t j, const Vec3& offset, double r) {
+    for_each_neighbor(i, [&](std::size_t j, const Vec3& offset, double r) {
       if (j == i || r == 0.0) return;  // the gradient of Wendland C2 vanishes in the middle
       const Vec3 gradient = kernel.slope(r) / r * offset;
       if (set.pressure == sph::PressureTerm::variational) {
-        fields.acceleration[i] -= mass * (pressureTerm(i) + pressureTerm(j)) * gradient;
+        fields.acceleration[i] -= mass * (pressure_term(i) + pressure_term(j)) * gradient;
       }
       if (set.viscosity == sph::ViscosityTerm::none) return;
       double viscosity = d.effects.viscosity->viscosity;

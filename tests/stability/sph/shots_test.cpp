@@ -19,7 +19,8 @@ struct Shot {
   sph::Vec3 target;     ///< m
 };
 
-void PrintTo(const Shot& one, std::ostream* out) { *out << one.name; }  // NOLINT: the name is GoogleTest's
+// NOLINTNEXTLINE(readability-identifier-naming): the name is GoogleTest's
+void PrintTo(const Shot& one, std::ostream* out) { *out << one.name; }
 
 class ShotTest : public testing::TestWithParam<Shot> {};
 

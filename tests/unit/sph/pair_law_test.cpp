@@ -94,13 +94,13 @@ TEST_P(PairLaw, ForcesVanishAtTheSupport) {
   WorldDescription description = scene(test::freeBlock({2, 1, 1}));
   if (description.effects.pressure) description.effects.pressure->background_pressure = 1e6;
   for (const SimdTarget target : availableSimdTargets()) {
-    const auto accelerationAt = [&](double distance) {
+    const auto acceleration_at = [&](double distance) {
       const PassRig<float> rig{description, *findPasses(target), pairAt({0.001, 0.0, 0.0}, {0.001 + distance, 0.0, 0.0})};
       return rig.acceleration()[0].norm();
     };
-    EXPECT_EQ(accelerationAt(0.0020001), 0.0);
-    EXPECT_LT(accelerationAt(0.00199), 1e-4 * accelerationAt(0.001));
-    EXPECT_GT(accelerationAt(0.00199), 0.0);
+    EXPECT_EQ(acceleration_at(0.0020001), 0.0);
+    EXPECT_LT(acceleration_at(0.00199), 1e-4 * acceleration_at(0.001));
+    EXPECT_GT(acceleration_at(0.00199), 0.0);
   }
 }
 

@@ -159,7 +159,7 @@ TEST(WorldStats, AreThoseOfTheFrame) {
   Vec3 center = Vec3::Zero();
   for (std::size_t i = 0; i < frame.count; ++i) {
     energy += 0.5 * world->particleMass() * test::velocityOf(frame, i).squaredNorm();
-    error += std::max(0.0, double{frame.density[i]} / test::kRestDensity - 1.0) / frame.count;
+    error += std::max(0.0, static_cast<double>(frame.density[i]) / test::kRestDensity - 1.0) / frame.count;
     fastest = std::max(fastest, test::velocityOf(frame, i).norm());
     center += test::positionOf(frame, i) / frame.count;
   }

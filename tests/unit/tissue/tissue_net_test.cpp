@@ -43,7 +43,8 @@ struct Scene {
   std::vector<TissueDescription> tissue;
 };
 
-void PrintTo(const Scene& one, std::ostream* out) { *out << one.name; }  // NOLINT: the name is GoogleTest's
+// NOLINTNEXTLINE(readability-identifier-naming): the name is GoogleTest's
+void PrintTo(const Scene& one, std::ostream* out) { *out << one.name; }
 
 class TissueNetTest : public testing::TestWithParam<Scene> {};
 
