@@ -131,6 +131,9 @@ TEST_F(SimulationTest, ChangesFrameRateAndAttributes) {
   ASSERT_NE(frame, nullptr);
   EXPECT_EQ(frame->frame.step, 10U);
   EXPECT_EQ(frame->frame.attributes, static_cast<std::uint32_t>(sph::kFrameVelocity));
+  EXPECT_EQ(channels_.board.read().report.full_frame_bytes, 8U * 28U) << "at the capacity of the scene";
+  ask(dds::SetOutput{{}, sph::kFrameVelocity | sph::kFrameDensity});
+  EXPECT_EQ(channels_.board.read().report.full_frame_bytes, 8U * 32U);
   const dds::Reply refused = ask(dds::SetOutput{{}, sph::kFrameViscosity});
   EXPECT_EQ(refused.code, dds::ReplyCode::unsupported);
   EXPECT_THAT(refused.reason, HasSubstr("no viscosity effect"));
