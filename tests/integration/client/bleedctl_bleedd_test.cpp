@@ -144,6 +144,23 @@ TEST_F(BleedctlBleeddTest, TheClockObeys) {
       "accepted");
 }
 
+TEST_F(BleedctlBleeddTest, WatchGoesOnShowingAPausedSession) {
+  EXPECT_EQ(text(json({"pause"}), "code"), "accepted");
+  const auto still = eventually([](const client::SessionStatus& s) { return s.state == client::SessionState::paused; });
+  const Finished watched = bleedctl({"watch", "--count", "2", "--json"}, false);
+  ASSERT_EQ(watched.code, 0) << watched.output;
+  std::istringstream lines{watched.output};
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const Json shown = parseJson(line);
+    EXPECT_EQ(text(shown, "state"), "paused");
+    EXPECT_EQ(number(shown, "step"), static_cast<double>(still.step));
+    EXPECT_EQ(number(shown, "sim_time_s"), still.sim_time_s);
+    EXPECT_EQ(number(shown, "particles"), static_cast<double>(still.particles));
+  }
+  EXPECT_EQ(count, 2);
+}
+
 TEST_F(BleedctlBleeddTest, ResetLoadAndShutdown) {
   const std::uint32_t epoch = daemon_->session().status()->epoch;
   const Json reset = json({"reset"});
