@@ -1,8 +1,8 @@
 // The contract of World: what runs between frames calls operator new zero times once the world is warm.
 #include <gtest/gtest.h>
 
+#include "tests/support/counting_new.h"
 #include "tests/support/scenes.h"
-#include "tests/unit/sph/counting_new.h"
 
 namespace bleedsim::sph {
 namespace {

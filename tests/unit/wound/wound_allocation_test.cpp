@@ -1,10 +1,7 @@
-#include <atomic>
-#include <cstdlib>
 #include <gtest/gtest.h>
-#include <new>
 
 #include "service/sph/wound/wound_set.h"
-#include "tests/unit/wound/counting_new.h"
+#include "tests/support/counting_new.h"
 #include "tests/unit/wound/throat_world.h"
 
 namespace bleedsim::sph {
@@ -16,7 +13,7 @@ TEST(WoundSet, AStepAllocatesNothing) {
   std::uint32_t last = 0;
   std::uint64_t placed = 0;
   double open = 0.0;
-  const std::uint64_t before = allocationCount();
+  const std::uint64_t before = test::allocationCount();
   for (int step = 0; step < 500; ++step) {
     set.advance(1e-4, [&](const InletSpawn& spawn) {
       last = spawn.tag;
@@ -25,14 +22,14 @@ TEST(WoundSet, AStepAllocatesNothing) {
     });
     open += set.kinematics(last).position.z() + set.openFraction({0.001, 0.0, 0.0});
   }
-  EXPECT_EQ(allocationCount(), before);
+  EXPECT_EQ(test::allocationCount(), before);
   EXPECT_GT(placed, 300u);
   EXPECT_NE(open, 0.0);
   EXPECT_GT(set.refusedParticles(), 10u);
   WoundDescription another = discWound(0.002, 0.0);
   another.position.x() = 0.02;
   ASSERT_TRUE(set.add(another).ok());
-  EXPECT_GT(allocationCount(), before) << "the counter does not count";
+  EXPECT_GT(test::allocationCount(), before) << "the counter does not count";
 }
 
 }  // namespace
