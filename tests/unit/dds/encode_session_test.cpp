@@ -5,6 +5,7 @@
 
 #include "service/dds/command_limits.h"
 #include "service/dds/session_encoder.h"
+#include "service/transport/clock.h"
 #include "tests/unit/dds/samples.h"
 
 namespace bleedsim::dds {
@@ -71,6 +72,7 @@ TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
   report.pace = {PaceMode::factor, 0.5};
   const std::vector<NamedCount> counts(80, NamedCount{"many", 1});
   EXPECT_EQ(encoder.encode(report, counts).heartbeat, 1U);
+  const std::int64_t before = transport::monotonicNow();
   const bleed_v1_Status& status = encoder.encode(report, counts);
   EXPECT_EQ(status.heartbeat, 2U);
   EXPECT_STREQ(status.session_name, "theatre");
@@ -78,7 +80,8 @@ TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
   EXPECT_EQ(std::strlen(status.text), 256U);
   EXPECT_EQ(status.counters._length, 64U);
   EXPECT_EQ(status.pace_mode, static_cast<std::uint32_t>(bleed_v1_PACE_FACTOR));
-  EXPECT_GT(status.monotonic_stamp_ns, 0);
+  EXPECT_GE(status.monotonic_stamp_ns, before);
+  EXPECT_LE(status.monotonic_stamp_ns, transport::monotonicNow());
 }
 
 TEST(SceneEncoder, TellsUnitsAndBounds) {
