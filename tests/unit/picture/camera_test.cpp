@@ -62,18 +62,18 @@ TEST(Camera, fitShowsTheWholeBoxAndFillsThePicture) {
 
 TEST(Camera, namedViewsLookTheWayTheirNamesSay) {
   // +x to the right and +z up from the front, +y up from the top; from the side +y to the right.
-  const auto pixelOf = [](NamedView named, const Vec3& point) {
+  const auto pixel_of = [](NamedView named, const Vec3& point) {
     FitOptions options;
     options.projection = Projection::orthographic;
     const View view = *View::create(*fitCamera({{-1, -1, -1}, {1, 1, 1}}, named, options), 800, 600);
     return Eigen::Vector2d{view.toPixel(view.toView(point)) - Eigen::Vector2d{400, 300}};
   };
-  EXPECT_GT(pixelOf(NamedView::front, {1, 0, 0}).x(), 100.0);
-  EXPECT_LT(pixelOf(NamedView::front, {0, 0, 1}).y(), -100.0);
-  EXPECT_GT(pixelOf(NamedView::side, {0, 1, 0}).x(), 100.0);
-  EXPECT_LT(pixelOf(NamedView::side, {0, 0, 1}).y(), -100.0);
-  EXPECT_GT(pixelOf(NamedView::top, {1, 0, 0}).x(), 100.0);
-  EXPECT_LT(pixelOf(NamedView::top, {0, 1, 0}).y(), -100.0);
+  EXPECT_GT(pixel_of(NamedView::front, {1, 0, 0}).x(), 100.0);
+  EXPECT_LT(pixel_of(NamedView::front, {0, 0, 1}).y(), -100.0);
+  EXPECT_GT(pixel_of(NamedView::side, {0, 1, 0}).x(), 100.0);
+  EXPECT_LT(pixel_of(NamedView::side, {0, 0, 1}).y(), -100.0);
+  EXPECT_GT(pixel_of(NamedView::top, {1, 0, 0}).x(), 100.0);
+  EXPECT_LT(pixel_of(NamedView::top, {0, 1, 0}).y(), -100.0);
 }
 
 TEST(Camera, orthographicWidthIsInMetres) {

@@ -87,18 +87,18 @@ TEST(PlotScript, everyTextIsEscaped) {
   BarPlot bars = barPlot();
   bars.title = bars.category_label = bars.y.label = bars.categories[0] = bars.series[0].name = hostile;
   bars.lines = {{ReferenceLine::Direction::horizontal, 0.2, hostile}};
-  const auto countOf = [](const std::string& script, const std::string& part) {
+  const auto count_of = [](const std::string& script, const std::string& part) {
     std::size_t count = 0;
     for (std::size_t at = script.find(part); at != std::string::npos; at = script.find(part, at + 1)) ++count;
     return count;
   };
   const std::string escaped = gnuplotString(hostile);
   const std::string lines_script = scriptOf(plot, "a", "a.png", {});
-  EXPECT_EQ(countOf(lines_script, escaped), 5U);
-  EXPECT_EQ(countOf(lines_script, "`"), 0U);
+  EXPECT_EQ(count_of(lines_script, escaped), 5U);
+  EXPECT_EQ(count_of(lines_script, "`"), 0U);
   const std::string bars_script = scriptOf(bars, "a", "a.png", {});
-  EXPECT_EQ(countOf(bars_script, escaped), 6U);
-  EXPECT_EQ(countOf(bars_script, "`"), 0U);
+  EXPECT_EQ(count_of(bars_script, escaped), 6U);
+  EXPECT_EQ(count_of(bars_script, "`"), 0U);
 }
 
 TEST(PlotScript, referenceLinesAreInsideTheRange) {

@@ -74,13 +74,13 @@ TEST(ScenePicture, depthIsThatOfTheNearestSurface) {
   const Result<ScenePicture> picture =
       drawScene({.positions = position, .radius_m = 0.02}, {PlaneShape{{0, 0, 0}, {0, 0, 1}, 0.1}}, fromTop(), plain());
   ASSERT_TRUE(picture.ok());
-  const auto depthAt = [&picture](int x, int y) {
+  const auto depth_at = [&picture](int x, int y) {
     return picture->depth_m[static_cast<std::size_t>(y) * 400 + static_cast<std::size_t>(x)];
   };
   // Half a pixel (0.5 mm) from the axis both ways: 0.98 m to the centre less sqrt(r^2 - 0.5 mm^2).
-  EXPECT_NEAR(depthAt(200, 150), 0.98 - std::sqrt(0.02 * 0.02 - 0.5e-6), 1e-6);
-  EXPECT_NEAR(depthAt(280, 150), 1.0, 1e-6);
-  EXPECT_EQ(depthAt(320, 150), kNoDepth);
+  EXPECT_NEAR(depth_at(200, 150), 0.98 - std::sqrt(0.02 * 0.02 - 0.5e-6), 1e-6);
+  EXPECT_NEAR(depth_at(280, 150), 1.0, 1e-6);
+  EXPECT_EQ(depth_at(320, 150), kNoDepth);
 }
 
 TEST(ScenePicture, tissueHidesWhatLiesBehindIt) {
@@ -130,13 +130,13 @@ TEST(ScenePicture, deepBloodIsDarkerThanAThinLayer) {
   }
   SceneStyle style = plain();
   style.look = BloodLook::liquid;
-  const auto centerOf = [&style](const std::vector<float>& positions) {
+  const auto center_of = [&style](const std::vector<float>& positions) {
     const auto picture = drawScene({.positions = positions, .radius_m = 0.002}, {PlaneShape{}}, fromTop(), style);
     return picture->image.at(200, 150);
   };
-  EXPECT_TRUE(isRed(centerOf(thin)));
-  EXPECT_TRUE(isRed(centerOf(deep)));
-  EXPECT_LT(brightness(centerOf(deep)) + 20, brightness(centerOf(thin)));
+  EXPECT_TRUE(isRed(center_of(thin)));
+  EXPECT_TRUE(isRed(center_of(deep)));
+  EXPECT_LT(brightness(center_of(deep)) + 20, brightness(center_of(thin)));
 }
 
 TEST(ScenePicture, liquidIsSmootherThanItsSpheres) {

@@ -93,17 +93,17 @@ TEST(SmoothSurface, quantityIsAMeanOfItsNeighbours) {
 }
 
 TEST(Occlusion, darkensCreasesButNoSlopesAndNoRidges) {
-  const auto occlusionAt = [](const auto& depth, int x) {
+  const auto occlusion_at = [](const auto& depth, int x) {
     const Surface surface = surfaceOf(depth);
     return occlusionOf(surface.depth, kSide, kSide, 4.0 * kPixel, 8.0)[surface.index(x, 60)];
   };
-  EXPECT_NEAR(occlusionAt([](int x, int y) { return 1.0 + 0.5e-3 * x + 0.3e-3 * y; }, 60), 0.0F, 1e-3F) << "a slanted plane";
-  EXPECT_GT(occlusionAt([](int x, int) { return 1.0 - 1e-3 * std::abs(x - 60); }, 60), 0.3F) << "a crease";
-  EXPECT_EQ(occlusionAt([](int x, int) { return 1.0 + 1e-3 * std::abs(x - 60); }, 60), 0.0F) << "a ridge";
+  EXPECT_NEAR(occlusion_at([](int x, int y) { return 1.0 + 0.5e-3 * x + 0.3e-3 * y; }, 60), 0.0F, 1e-3F) << "a slanted plane";
+  EXPECT_GT(occlusion_at([](int x, int) { return 1.0 - 1e-3 * std::abs(x - 60); }, 60), 0.3F) << "a crease";
+  EXPECT_EQ(occlusion_at([](int x, int) { return 1.0 + 1e-3 * std::abs(x - 60); }, 60), 0.0F) << "a ridge";
   const auto step = [](double height) { return [height](int x, int) { return x < 60 ? 1.0 - height : 1.0; }; };
-  EXPECT_GT(occlusionAt(step(0.01), 61), 0.2F) << "beside a low step";
-  EXPECT_EQ(occlusionAt(step(0.01), 80), 0.0F) << "far from it";
-  EXPECT_EQ(occlusionAt(step(0.5), 61), 0.0F) << "behind something far in front";
+  EXPECT_GT(occlusion_at(step(0.01), 61), 0.2F) << "beside a low step";
+  EXPECT_EQ(occlusion_at(step(0.01), 80), 0.0F) << "far from it";
+  EXPECT_EQ(occlusion_at(step(0.5), 61), 0.0F) << "behind something far in front";
 }
 
 }  // namespace
