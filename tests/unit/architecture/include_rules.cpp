@@ -18,7 +18,7 @@ const std::vector<LibraryRule>& libraryRules() {
   static const std::vector<LibraryRule> kRules{
       {"hwy/", {"sph"}},
       {"tbb/", {"sph"}},
-      {"Eigen/", {"sph", "scene", "dds", "daemon"}},
+      {"Eigen/", {"sph", "scene", "dds", "daemon", "picture"}},
       // recording converts IDL samples, whose sequences and strings ddsc allocates; it opens no entity.
       {"dds/", {"transport", "recording"}},
       {"google/protobuf/", {"scene", "recording"}},
@@ -27,8 +27,9 @@ const std::vector<LibraryRule>& libraryRules() {
       {"fmt/", {"scene", "transport", "dds", "recording", "daemon", "client"}},
       {"zstd", {"recording"}},
       {"zlib", {"recording", "client"}},
+      {"png", {"picture"}},
       {"net/", {"transport"}},
-      {"sys/", {"transport", "daemon", "recording", "client"}},
+      {"sys/", {"transport", "daemon", "recording", "client", "picture"}},
   };
   return kRules;
 }
