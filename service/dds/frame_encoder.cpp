@@ -15,11 +15,6 @@ static_assert(std::endian::native == std::endian::little);
 namespace {
 
 constexpr std::size_t kScalarBytes = 4;
-constexpr std::size_t kMaxComponents = [] {
-  std::size_t components = 3 + 1;  // positions, ids
-  for (const FrameBlock& block : kFrameBlocks) components += block.components;
-  return components;
-}();
 
 /// Writes one attribute after the other.
 class PayloadWriter {
@@ -57,13 +52,21 @@ void appendCounter(std::vector<bleed_v1_Counter>& counters, std::string_view nam
   counters.back().value = value;
 }
 
+std::size_t frameBytesPerParticle(std::uint32_t attributes) {
+  std::size_t components = 3 + 1;  // position, id
+  for (const FrameBlock& block : kFrameBlocks) {
+    if ((attributes & block.attribute) != 0) components += block.components;
+  }
+  return components * kScalarBytes;
+}
+
 FrameEncoder::FrameEncoder(const Uuid& session) {
   transport::copyUuid(session, sample_.session);
   sample_.attributes = {kMaxAttributes, 0, attributes_.data(), false};
 }
 
 void FrameEncoder::reserve(std::uint32_t particles) {
-  const std::size_t bytes = std::size_t{particles} * kMaxComponents * kScalarBytes;
+  const std::size_t bytes = std::size_t{particles} * frameBytesPerParticle(allFrameAttributes());
   if (payload_.size() < bytes) payload_.resize(bytes);
 }
 

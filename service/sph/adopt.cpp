@@ -79,10 +79,11 @@ Status WorldCore<Real>::adopt(World& world) {
   counters_ = from->counters_;
   kick_results_[0] = from->kick_results_[0];
   repulsion_start_ = from->description_.effects.repulsion ? from->repulsion_start_ : from->time_;
+  solving_viscosity_ = from->solving_viscosity_;
+  viscosity_iterations_ = from->viscosity_iterations_;
   // The step that was due, unless an effect that is new here allows less.
-  next_dt_ = std::min(from->next_dt_,
-                      stableTimeStep(limits_, max_speed_, std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2)),
-                                     std::numeric_limits<double>::infinity()));
+  chooseTimeStep(std::numeric_limits<double>::infinity());
+  next_dt_ = std::min(from->next_dt_, next_dt_);
   return {};
 }
 

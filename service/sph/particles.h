@@ -56,6 +56,13 @@ struct Particles {
     if (!radius.empty()) radius[to] = source.radius[from];
   }
 
+  std::size_t bytes() const {
+    std::size_t sum = id.bytes() + driver.bytes();
+    for (const AlignedArray<Real>* array : {&x, &y, &z, &vx, &vy, &vz, &inverse_viscosity, &platelet, &radius})
+      sum += array->bytes();
+    return sum;
+  }
+
   void swap(Particles& other) noexcept {
     x.swap(other.x);
     y.swap(other.y);

@@ -50,6 +50,7 @@ enum class Counter {
   neighbor_overflow,     ///< particle-steps beyond the neighbour list, handled by the slow path
   force_without_fluid,   ///< source-steps with no particle within reach
   force_expired,         ///< force sources that ended by their time
+  viscosity_unsolved,    ///< steps whose implicit viscosity did not reach its tolerance
   count
 };
 std::string_view counterName(Counter counter);
@@ -98,11 +99,22 @@ struct WorldStats {
   double mean_density_error = 0.0;  ///< mean of max(0, rho/rho0 - 1)
   double max_density_error = 0.0;
   double max_speed = 0.0;                                              ///< m/s
+  int viscosity_iterations = 0;                                        ///< of the implicit solve in the last step; 0: explicit
   double kinetic_energy = 0.0;                                         ///< J
   Vec3 momentum = Vec3::Zero();                                        ///< kg m/s, of the free particles
   Vec3 center = Vec3::Zero();                                          ///< m, of the free particles' mass; zero without any
   std::array<double, static_cast<int>(Stage::count)> stage_seconds{};  ///< summed since creation
   std::array<std::uint64_t, static_cast<int>(Counter::count)> counters{};
+};
+
+/// What a world has reserved, bytes. Everything is reserved at creation, for the capacity.
+struct MemoryUse {
+  std::size_t particles = 0;  ///< state, twice for the sort
+  std::size_t passes = 0;     ///< records, densities, accelerations
+  std::size_t lists = 0;      ///< neighbour lists
+  std::size_t grid = 0;
+  std::size_t tissue = 0;
+  std::size_t effects = 0;  ///< arrays that effects own beside the others
 };
 
 /// What apply() did.
@@ -147,6 +159,7 @@ class World {
   virtual double speedOfSound() const = 0;  ///< m/s
   virtual double particleMass() const = 0;  ///< kg, calibrated on the rest lattice
   virtual bool faulted() const = 0;
+  virtual MemoryUse memory() const = 0;
 };
 
 /// Checks what only the solver can (capacity against blocks, wounds against tissue and speed of sound) and builds the world.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "service/sph/effects/applied_force.h"
+#include "service/sph/effects/implicit_viscosity.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"
@@ -23,11 +24,18 @@
 
 namespace bleedsim::sph {
 
+/// The compiled code that a world runs.
+template <class Real>
+struct WorldTables {
+  const PassTable<Real>& passes;
+  const SweepTable<Real>& sweeps;
+};
+
 template <class Real>
 class WorldCore final : public World {
  public:
-  /// `tissue` of the description, already built; `table` of `target`.
-  WorldCore(const WorldDescription& description, const WorldOptions& options, SimdTarget target, const PassTable<Real>& table,
+  /// `tissue` of the description, already built; `tables` of `target`.
+  WorldCore(const WorldDescription& description, const WorldOptions& options, SimdTarget target, const WorldTables<Real>& tables,
             const RestLattice& lattice, TissueField<Real> tissue);
 
   /// Places the fluid blocks and opens the scene's wounds; then computes the first accelerations. Once, before the first step.
@@ -48,6 +56,7 @@ class WorldCore final : public World {
   double speedOfSound() const override { return speed_of_sound_; }
   double particleMass() const override { return lattice_.particle_mass; }
   bool faulted() const override { return faulted_; }
+  MemoryUse memory() const override;
 
  private:
   // The stages, in order.
@@ -56,6 +65,8 @@ class WorldCore final : public World {
   void findNeighbors(const Bounds<Real>& bounds);
   void computeAccelerations();
   void finishStep(double dt);
+  void solveViscosity(double dt);
+  void chooseTimeStep(double before);
 
   Bounds<Real> boundsOf() const;
   void chooseShares();
@@ -80,6 +91,9 @@ class WorldCore final : public World {
   WallEffects<Real> walls_;
   WoundSet wounds_;
   std::optional<AppliedForce<Real>> applied_force_;
+  std::optional<ImplicitViscosity<Real>> implicit_viscosity_;
+  bool solving_viscosity_ = false;  // implicitly, in this step
+  int viscosity_iterations_ = 0;
   std::vector<DriftResult<Real>> drift_results_;
   std::vector<KickResult<Real>> kick_results_;
 

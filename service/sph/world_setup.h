@@ -7,6 +7,7 @@
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/passes/pair_passes.h"
+#include "service/sph/passes/sweep_table.h"
 #include "service/sph/rest_lattice.h"
 #include "service/sph/tissue/wall_effects.h"
 #include "service/sph/world_description.h"
@@ -48,6 +49,30 @@ inline double largestViscosity(const WorldDescription& description) {
   double largest = description.effects.viscosity->viscosity;
   for (const FluidBlock& block : description.fluid_blocks) largest = std::max(largest, block.viscosity.value_or(0.0));
   return largest;
+}
+
+/// The largest viscosity that any particle can come to have, Pa s: by its block, at rest, or clotted.
+inline double largestPossibleViscosity(const WorldDescription& description) {
+  if (!description.effects.viscosity) return 0.0;
+  double largest = largestViscosity(description);
+  const Rheology& rheology = description.effects.viscosity->rheology;
+  if (const auto* carreau = std::get_if<CarreauYasudaRheology>(&rheology)) largest = std::max(largest, carreau->zero_shear);
+  if (const auto* casson = std::get_if<CassonRheology>(&rheology)) {
+    const double root = std::sqrt(casson->viscosity) + std::sqrt(casson->yield_stress / casson->regularisation_shear_rate);
+    largest = std::max(largest, root * root);
+  }
+  if (description.effects.platelets) largest = std::max(largest, description.effects.platelets->clot_viscosity);
+  return largest;
+}
+
+/// Whether viscosity is solved implicitly, or may come to be.
+inline bool mayNeedImplicitViscosity(const WorldDescription& description, double speed_of_sound) {
+  const auto& viscosity = description.effects.viscosity;
+  if (!viscosity || viscosity->solve == ViscositySolve::explicit_) return false;
+  if (viscosity->solve == ViscositySolve::implicit) return true;
+  const double h = description.supportRadius();
+  const double viscous = 0.045 * h * h * description.rest_density / largestPossibleViscosity(description);
+  return viscous < 0.4 * description.spacing / speed_of_sound;
 }
 
 inline TimeStepLimits timeStepLimits(const WorldDescription& description, double speed_of_sound) {
@@ -97,6 +122,10 @@ PairConstants<Real> pairConstants(const WorldDescription& description, const Res
 inline PassChoice passChoice(const WorldDescription& description) {
   const auto& periodic = description.domain.periodic;
   return {description.kernel, periodic[0] || periodic[1] || periodic[2]};
+}
+
+inline SweepChoice sweepChoice(const WorldDescription& description) {
+  return {passChoice(description).periodic, description.effects.core_radius.has_value()};
 }
 
 inline PairLayout pairLayout(const WorldDescription& description) {

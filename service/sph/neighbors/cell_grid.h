@@ -70,6 +70,11 @@ class CellGrid {
   }
 
   const GridView<Real>& view() const { return view_; }
+  std::size_t bytes() const {
+    std::size_t sum = start_.bytes() + cell_of_.bytes();
+    for (const AlignedArray<std::uint32_t>& histogram : histograms_) sum += histogram.bytes();
+    return sum;
+  }
   std::uint32_t* cells() { return cell_of_.data(); }
 
   /// Lays the grid over the bounds. Particles beyond the margin fall into the outermost cells: right, though slow, for the few

@@ -34,7 +34,7 @@ void stepTo(Probe& probe, std::uint32_t count) {
 }
 
 TEST_F(ServiceTest, AnEffectIsSwitchedWhileTheSessionRuns) {
-  Child daemon{daemonCommand("switch")};
+  test::ChildProcess daemon{daemonCommand("switch")};
   Probe probe{domain(), "switch"};
   const FrameHead before = probe.frame([](const FrameHead& frame) { return frame.step > 50; });
   const bleed_v1_Reply off = probe.ask(effect("viscosity", false));
@@ -65,7 +65,7 @@ TEST_F(ServiceTest, AnEffectIsSwitchedWhileTheSessionRuns) {
 }
 
 TEST_F(ServiceTest, ASwitchedEffectActsAndTheSameSwitchGivesTheSameBits) {
-  Child daemon{daemonCommand("acts")};
+  test::ChildProcess daemon{daemonCommand("acts")};
   Probe probe{domain(), "acts"};
   ASSERT_EQ(probe.ask(bleed_v1_REQUEST_PAUSE).code, kAccepted);
   const auto run = [&](const std::vector<bleed_v1_RequestBody>& switches) {
@@ -92,7 +92,7 @@ TEST_F(ServiceTest, ASwitchedEffectActsAndTheSameSwitchGivesTheSameBits) {
 }
 
 TEST_F(ServiceTest, RefusedSwitchesLeaveTheStateAsItWas) {
-  Child daemon{daemonCommand("refused")};
+  test::ChildProcess daemon{daemonCommand("refused")};
   Probe probe{domain(), "refused"};
   ASSERT_EQ(probe.ask(bleed_v1_REQUEST_PAUSE).code, kAccepted);
   const std::uint64_t undisturbed = probe.hashAfterReset(300, {});
@@ -129,7 +129,7 @@ TEST_F(ServiceTest, RefusedSwitchesLeaveTheStateAsItWas) {
 }
 
 TEST_F(ServiceTest, ALateJoinerSeesTheSwitchedEffects) {
-  Child daemon{daemonCommand("joiner")};
+  test::ChildProcess daemon{daemonCommand("joiner")};
   {
     Probe early{domain(), "joiner"};
     ASSERT_EQ(early.ask(bleed_v1_REQUEST_PAUSE).code, kAccepted);
@@ -143,7 +143,7 @@ TEST_F(ServiceTest, ALateJoinerSeesTheSwitchedEffects) {
 }
 
 TEST_F(ServiceTest, CommandsWorkWhileAnEffectIsBeingSwitched) {
-  Child daemon{daemonCommand("beside")};
+  test::ChildProcess daemon{daemonCommand("beside")};
   Probe probe{domain(), "beside"};
   for (int i = 0; i < 4; ++i) {
     ASSERT_EQ(probe.ask(effect("repulsion", i % 2 == 0)).code, kAccepted);
@@ -165,7 +165,7 @@ TEST_F(ServiceTest, DecisionsOfAutoAreToldAtLoad) {
   const std::string more = "surface_tension {} platelets {} auto: ['platelets', 'surface_tension'] ";
   scene.insert(scene.find("applied_force"), more);
   std::ofstream{sceneFile()} << scene;
-  Child daemon{daemonCommand("auto")};
+  test::ChildProcess daemon{daemonCommand("auto")};
   Probe probe{domain(), "auto"};
   const SceneHead head = probe.scene();
   EXPECT_THAT(head.effects, Not(Contains("platelets")));

@@ -20,7 +20,7 @@ class SwitchingTest : public SimulationTest {
     dds::Reply out;
     for (int i = 0; i < 1'000'000; ++i) {
       tick();
-      if (channels.replies.tryPop(out)) return out;
+      if (channels_.replies.tryPop(out)) return out;
       std::this_thread::yield();
     }
     ADD_FAILURE() << "no reply";
@@ -31,20 +31,20 @@ class SwitchingTest : public SimulationTest {
 TEST_F(SwitchingTest, TheNewWorldGoesOnWhereTheOldOneWas) {
   start();
   ticks(20);
-  const std::uint32_t epoch = simulation->epoch();
+  const std::uint32_t epoch = simulation_->epoch();
   ask(sph::AddWound{});
-  channels.board.takeScene();
+  channels_.board.takeScene();
   journal();
   const dds::Reply done = switched({"surface_tension", true, ""});
   EXPECT_EQ(done.code, dds::ReplyCode::accepted) << done.reason;
   EXPECT_EQ(done.epoch, epoch);
-  EXPECT_EQ(log->adoptions, 1);
-  EXPECT_EQ(log->speed_of_sound, 3.0) << "the speed of sound is kept";
-  EXPECT_EQ(simulation->world().wounds().size(), 1U);
-  EXPECT_EQ(simulation->world().stepCount(), done.applied_step) << "the tick that switched went on to the next step";
-  EXPECT_EQ(simulation->state(), dds::SessionState::running);
+  EXPECT_EQ(log_->adoptions, 1);
+  EXPECT_EQ(log_->speed_of_sound, 3.0) << "the speed of sound is kept";
+  EXPECT_EQ(simulation_->world().wounds().size(), 1U);
+  EXPECT_EQ(simulation_->world().stepCount(), done.applied_step) << "the tick that switched went on to the next step";
+  EXPECT_EQ(simulation_->state(), dds::SessionState::running);
 
-  const auto scene = channels.board.takeScene();
+  const auto scene = channels_.board.takeScene();
   ASSERT_NE(scene, nullptr) << "the scene is published again";
   EXPECT_EQ(scene->epoch, epoch);
   EXPECT_THAT(scene->effects, ElementsAre("surface_tension"));
@@ -64,38 +64,38 @@ TEST_F(SwitchingTest, InputsThatArriveMeanwhileAreNotLost) {
   tick();
   EXPECT_EQ(reply().key.seq, 2U) << "the wound is answered at once";
   EXPECT_EQ(awaited().key.seq, 1U);
-  EXPECT_EQ(simulation->world().wounds().size(), 1U);
+  EXPECT_EQ(simulation_->world().wounds().size(), 1U);
 }
 
 TEST_F(SwitchingTest, SwitchesInAPause) {
   start();
   ticks(5);
   ask(dds::PauseSession{});
-  const std::uint64_t step = simulation->world().stepCount();
+  const std::uint64_t step = simulation_->world().stepCount();
   push(dds::SetEffect{"repulsion", true, ""});
   tick();
-  while (log->adoptions == 0) {
-    channels.commands.wakeup().wait({});
+  while (log_->adoptions == 0) {
+    channels_.commands.wakeup().wait({});
     tick();
   }
   EXPECT_EQ(reply().applied_step, step + 1);
-  EXPECT_EQ(simulation->world().stepCount(), step);
-  EXPECT_EQ(simulation->state(), dds::SessionState::paused);
+  EXPECT_EQ(simulation_->world().stepCount(), step);
+  EXPECT_EQ(simulation_->state(), dds::SessionState::paused);
 }
 
 TEST_F(SwitchingTest, ARefusalLeavesNoTrace) {
   start();
-  channels.board.takeScene();
+  channels_.board.takeScene();
   const dds::Reply bad = switched({"repulsion", true, "bad"});
   EXPECT_EQ(bad.code, dds::ReplyCode::invalid);
   EXPECT_THAT(bad.reason, HasSubstr("effects.x: value bad"));
-  log->refuse_adoption = true;
+  log_->refuse_adoption = true;
   const dds::Reply full = switched({"repulsion", true, ""});
   EXPECT_EQ(full.code, dds::ReplyCode::capacity);
   EXPECT_THAT(full.reason, HasSubstr("no room"));
-  EXPECT_EQ(channels.board.takeScene(), nullptr);
+  EXPECT_EQ(channels_.board.takeScene(), nullptr);
   EXPECT_TRUE(journal().empty());
-  EXPECT_EQ(log->adoptions, 0);
+  EXPECT_EQ(log_->adoptions, 0);
 }
 
 TEST_F(SwitchingTest, IsRefusedWhileAWorldIsBuiltAndRefusesOthersMeanwhile) {
@@ -121,7 +121,7 @@ TEST_F(SwitchingTest, IsRefusedWhileAWorldIsBuiltAndRefusesOthersMeanwhile) {
 }
 
 TEST_F(SwitchingTest, IsRefusedOnceTheSolverHasStopped) {
-  log->fail_at_step = 3;
+  log_->fail_at_step = 3;
   start();
   ticks(5);
   const dds::Reply refused = ask(dds::SetEffect{"repulsion", true, ""});
@@ -134,7 +134,7 @@ TEST_F(SwitchingTest, ResetGoesBackToTheSceneAsItWasLoaded) {
   push(dds::ResetSession{});
   tick();
   loadUntilDone();
-  const auto scene = channels.board.takeScene();
+  const auto scene = channels_.board.takeScene();
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->text, "first");
   EXPECT_THAT(scene->effects, testing::IsEmpty());
@@ -148,10 +148,10 @@ TEST_F(SwitchingTest, AnAttributeGoesWithItsEffect) {
   EXPECT_EQ(radius.code, dds::ReplyCode::unsupported);
   EXPECT_THAT(radius.reason, HasSubstr("no core_radius effect"));
   tick();
-  EXPECT_EQ(channels.frames.load()->frame.attributes, sph::kFramePlatelet | sph::kFrameVelocity);
+  EXPECT_EQ(channels_.frames.load()->frame.attributes, sph::kFramePlatelet | sph::kFrameVelocity);
   ASSERT_EQ(switched({"platelets", false, ""}).code, dds::ReplyCode::accepted);
   tick();
-  EXPECT_EQ(channels.frames.load()->frame.attributes, static_cast<std::uint32_t>(sph::kFrameVelocity));
+  EXPECT_EQ(channels_.frames.load()->frame.attributes, static_cast<std::uint32_t>(sph::kFrameVelocity));
 }
 
 TEST_F(SwitchingTest, DecisionsStandInTheJournalAndTheStatus) {
@@ -160,7 +160,7 @@ TEST_F(SwitchingTest, DecisionsStandInTheJournalAndTheStatus) {
   const std::vector<dds::JournalEntry> entries = journal();
   ASSERT_EQ(entries.size(), 2U);
   EXPECT_EQ(std::get<dds::Decision>(entries[1].input).text, "auto: decided");
-  EXPECT_EQ(channels.board.read().report.text, "auto: decided");
+  EXPECT_EQ(channels_.board.read().report.text, "auto: decided");
 }
 
 }  // namespace

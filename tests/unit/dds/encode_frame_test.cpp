@@ -62,6 +62,14 @@ TEST(FrameEncoder, WritesEveryAttributeAskedFor) {
   EXPECT_EQ(scalarAt<float>(frame, 12 + 18 + 2), 0.003F);
 }
 
+TEST(FrameEncoder, BytesPerParticleAreThoseOfThePayload) {
+  FrameEncoder encoder{Uuid{}};
+  for (std::uint32_t attributes = 0; attributes < 8; ++attributes) {
+    EXPECT_EQ(encoder.encode(threeParticles(attributes), 1).payload._length, 3 * frameBytesPerParticle(attributes)) << attributes;
+  }
+  EXPECT_EQ(frameBytesPerParticle(sph::kFrameVelocity), 28U);
+}
+
 TEST(FrameEncoder, ReusesItsMemory) {
   FrameEncoder encoder{Uuid{}};
   encoder.reserve(3);

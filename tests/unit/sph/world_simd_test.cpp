@@ -36,7 +36,7 @@ WorldDescription bleeding() {
 }
 
 const std::vector<Case>& cases() {
-  static const std::vector<Case> all{
+  static const std::vector<Case> kAll{
       {"FreeBlock",
        [] {
          return test::freeBlock({11, 9, 10}, 0.3);
@@ -59,7 +59,7 @@ const std::vector<Case>& cases() {
        }},
       {"Bleeding", bleeding},
   };
-  return all;
+  return kAll;
 }
 
 /// Frame storage sorted by id: targets may sort particles at a cell's border differently.
@@ -88,10 +88,10 @@ Differences compare(const FrameBuffer& a, const FrameBuffer& b) {
     EXPECT_EQ(a.id[i], b.id[j]);
     apart.position = std::max(apart.position, (test::positionOf(a, i) - test::positionOf(b, j)).norm());
     apart.velocity = std::max(apart.velocity, (test::velocityOf(a, i) - test::velocityOf(b, j)).norm());
-    apart.density = std::max(apart.density, std::abs(double{a.density[i]} - double{b.density[j]}));
+    apart.density = std::max(apart.density, std::abs(static_cast<double>(a.density[i]) - static_cast<double>(b.density[j])));
     largest.position = std::max(largest.position, test::positionOf(a, i).norm());
     largest.velocity = std::max(largest.velocity, test::velocityOf(a, i).norm());
-    largest.density = std::max(largest.density, double{a.density[i]});
+    largest.density = std::max(largest.density, static_cast<double>(a.density[i]));
   }
   return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density};
 }
