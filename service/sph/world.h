@@ -56,6 +56,7 @@ enum FrameAttribute : std::uint32_t {
   kFrameVelocity = 1u << 0,
   kFrameDensity = 1u << 1,
   kFrameViscosity = 1u << 2,
+  kFrameRadius = 1u << 4,    ///< with the core radius effect
 };
 
 /// A copy of the visible particles; buffers are sized once with reserve() and reused. Order is storage order; ids are stable.
@@ -69,6 +70,7 @@ struct FrameBuffer {
   std::vector<float> velocity;    ///< 3 x count, m/s
   std::vector<float> density;     ///< count, kg/m^3
   std::vector<float> viscosity;   ///< count, Pa s
+  std::vector<float> radius;      ///< count, own support radius, m
 
   void reserve(std::uint32_t capacity, std::uint32_t attributes_wanted);
 };
