@@ -6,6 +6,7 @@
 
 #include "service/sph/effects/effect_list.h"
 #include "service/sph/seeding.h"
+#include "service/sph/world_checks.h"
 #include "service/sph/world_core.h"
 #include "service/sph/world_setup.h"
 
@@ -68,6 +69,7 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
     return invalid("the largest fall or depth must be finite and not negative");
   }
   if (Status status = checkEffects(d.effects); !status.ok()) return status;
+  if (Status status = checkEffectSet(d); !status.ok()) return status;
   const double h = d.supportRadius();
   const double c0 = options.speed_of_sound.value_or(speedOfSound(d));
   if (!(c0 > 0.0) || !std::isfinite(c0)) return invalid("the speed of sound must be greater than 0 m/s: set a design speed");
@@ -75,8 +77,10 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   for (Eigen::Index a = 0; a < 3; ++a) {
     const double length = d.domain.upper[a] - d.domain.lower[a];
     if (!(length > 0.0) || !std::isfinite(length)) return invalid("the domain's upper corner must lie above its lower corner");
-    if (d.domain.periodic[static_cast<std::size_t>(a)] && length < 3.0 * h) {
-      return invalid("a periodic side must measure at least three support radii, " + std::to_string(3.0 * h) + " m");
+    const double shortest = 3.0 * h * radiusBounds(d).largest;
+    if (d.domain.periodic[static_cast<std::size_t>(a)] && length < shortest) {
+      return invalid("a periodic side must measure at least three of the largest support radii, " + std::to_string(shortest) +
+                     " m");
     }
     cells *= length / h + 2.0 * kThroatMargin;
   }
@@ -106,8 +110,11 @@ Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptio
                                      const WorldTables<Real>& tables) {
   const SmoothingKernel kernel{d.kernel, d.supportRadius()};
   const RestLattice lattice = calibrateRestLattice(kernel, d.spacing, d.rest_density);
-  Result<TissueField<Real>> tissue = TissueField<Real>::create(
-      d.tissue, {.kernel = kernel, .spacing = d.spacing, .particle_mass = lattice.particle_mass, .rest_density = d.rest_density});
+  Result<TissueField<Real>> tissue = TissueField<Real>::create(d.tissue, {.kernel = kernel,
+                                                                          .spacing = d.spacing,
+                                                                          .particle_mass = lattice.particle_mass,
+                                                                          .rest_density = d.rest_density,
+                                                                          .radii = radiusBounds(d)});
   if (!tissue) return tissue.status();
   auto world = std::make_unique<WorldCore<Real>>(d, options, target, tables, lattice, std::move(*tissue));
   if (Status status = world->populate(); !status.ok()) return status;

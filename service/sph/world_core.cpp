@@ -46,10 +46,20 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
       executor_{makeExecutor(options.threads)},
       particles_{description.capacity, particleFields<Real>(description), 0},
       sorted_{description.capacity, particleFields<Real>(description), Particles<Real>::kArrays},
-      grid_{description.capacity,        asArray(description.domain.lower / h_),    asArray(description.domain.upper / h_),
-            description.domain.periodic, kThroatMargin / description.support_ratio, options.threads},
-      passes_{tables.passes,        pairLayout(description),   pairConstants<Real>(description, lattice, speed_of_sound_),
-              description.capacity, description.support_ratio, options.threads},
+      grid_{description.capacity,
+            asArray(description.domain.lower / h_),
+            asArray(description.domain.upper / h_),
+            description.domain.periodic,
+            kThroatMargin / description.support_ratio,
+            options.threads,
+            radiusBounds(description).largest},
+      passes_{tables.passes,
+              pairLayout(description),
+              pairConstants<Real>(description, lattice, speed_of_sound_),
+              description.capacity,
+              description.support_ratio * radiusBounds(description).largest,
+              options.threads,
+              latticeFactors<Real>(description)},
       walls_{std::move(tissue), wallConstants<Real>(description, lattice, speed_of_sound_), description.capacity,
              options.threads},
       wounds_{description, speed_of_sound_},
@@ -58,6 +68,9 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
   if (description.effects.gravity) {
     const Vec3& g = description.effects.gravity->acceleration;
     gravity_ = {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(g.z())};
+  }
+  if (const auto& core_radius = description.effects.core_radius) {
+    core_radius_.emplace(*core_radius, description.rest_density, options.threads);
   }
   if (mayNeedImplicitViscosity(description, speed_of_sound_)) {
     const ViscositySettings& viscosity = *description.effects.viscosity;
@@ -89,6 +102,7 @@ Status WorldCore<Real>::populate() {
       particles_.vz[i] = static_cast<Real>(block.velocity.z());
       particles_.id[i] = next_id_++;
       if (!particles_.inverse_viscosity.empty()) particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity);
+      if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
     });
   }
   injected_ = count_;
@@ -156,6 +170,7 @@ void WorldCore<Real>::emit(double dt) {
     if (!particles_.inverse_viscosity.empty()) {
       particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / description_.effects.viscosity->viscosity);
     }
+    if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
     std::fill_n(passes_.acceleration() + std::size_t{i} * 4, 4, Real(0));
     return true;
   });
@@ -183,7 +198,7 @@ void WorldCore<Real>::move(double dt) {
 
 template <class Real>
 void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds) {
-  grid_.cover(bounds);
+  grid_.cover(bounds, passes_.reach());
   executor_->run(shares_, [&](int share) {
     const ShareRange range{count_, share, shares_};
     std::uint32_t* cells = grid_.cells();
@@ -237,6 +252,9 @@ void WorldCore<Real>::finishStep(double dt) {
   faulted_ = !total.finite;
   if (faulted_) return;
   if (solving_viscosity_ && dt > 0.0) solveViscosity(dt);
+  if (core_radius_ && dt > 0.0) {
+    passes_.setReach(core_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
+  }
   counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
   counter(Counter::speed_clamped) += total.speed_clamped;
   counter(Counter::acceleration_clamped) += total.acceleration_clamped;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "service/sph/effects/applied_force.h"
+#include "service/sph/effects/core_radius.h"
 #include "service/sph/effects/implicit_viscosity.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
@@ -91,6 +92,7 @@ class WorldCore final : public World {
   WallEffects<Real> walls_;
   WoundSet wounds_;
   std::optional<AppliedForce<Real>> applied_force_;
+  std::optional<CoreRadius<Real>> core_radius_;
   std::optional<ImplicitViscosity<Real>> implicit_viscosity_;
   bool solving_viscosity_ = false;  // implicitly, in this step
   int viscosity_iterations_ = 0;

@@ -17,6 +17,18 @@ namespace bleedsim::sph {
 /// Wounds' throats may reach this far out of the domain, in spacings.
 constexpr double kThroatMargin = 16.0;
 
+/// Of particles' own support radii, over h.
+inline RadiusBounds radiusBounds(const WorldDescription& description) {
+  const auto& core_radius = description.effects.core_radius;
+  return core_radius ? RadiusBounds{core_radius->smallest, core_radius->largest} : RadiusBounds{};
+}
+
+template <class Real>
+std::optional<LatticeFactors<Real>> latticeFactors(const WorldDescription& description) {
+  if (!description.effects.core_radius) return std::nullopt;
+  return LatticeFactors<Real>{{description.kernel, description.supportRadius()}, description.spacing, radiusBounds(description)};
+}
+
 /// Whether particles differ in viscosity: by their block, their shear rate, their platelets or their support radius.
 inline bool viscosityVaries(const WorldDescription& description) {
   const EffectSettings& effects = description.effects;
@@ -69,10 +81,22 @@ inline double largestPossibleViscosity(const WorldDescription& description) {
 inline bool mayNeedImplicitViscosity(const WorldDescription& description, double speed_of_sound) {
   const auto& viscosity = description.effects.viscosity;
   if (!viscosity || viscosity->solve == ViscositySolve::explicit_) return false;
+  if (description.kernel != KernelType::wendland_c2) return false;  // its sweeps are compiled for one kernel
   if (viscosity->solve == ViscositySolve::implicit) return true;
-  const double h = description.supportRadius();
+  const double h = description.supportRadius() * radiusBounds(description).smallest;
   const double viscous = 0.045 * h * h * description.rest_density / largestPossibleViscosity(description);
   return viscous < 0.4 * description.spacing / speed_of_sound;
+}
+
+/// TimeStepLimits::contact: 0.1 where a touching pair is as stiff as with the default settings, shorter as the frequency of a
+/// harder one, w^2 = 2 D* (n1 - n2)/(contact distance/dx)^3 (c0/dx)^2 at first touch; 0 without the effect.
+inline double contactLimit(const std::optional<RepulsionSettings>& repulsion) {
+  if (!repulsion) return 0.0;
+  const auto stiffness = [](const RepulsionSettings& r) {
+    return r.strength * (r.power_1 - r.power_2) / (r.contact_distance * r.contact_distance * r.contact_distance);
+  };
+  const double harder = stiffness(*repulsion) / stiffness(RepulsionSettings{});
+  return harder > 1.0 ? 0.1 / std::sqrt(harder) : 0.1;
 }
 
 inline TimeStepLimits timeStepLimits(const WorldDescription& description, double speed_of_sound) {
@@ -81,7 +105,8 @@ inline TimeStepLimits timeStepLimits(const WorldDescription& description, double
   limits.speed_of_sound = speed_of_sound;
   limits.scene = description.max_dt;
   const double viscosity = largestViscosity(description);
-  const double h = description.supportRadius();
+  const double h = description.supportRadius() * radiusBounds(description).smallest;
+  limits.contact = contactLimit(description.effects.repulsion);
   if (viscosity > 0.0) limits.viscous = 0.045 * h * h * description.rest_density / viscosity;
   return limits;
 }

@@ -35,7 +35,6 @@ struct DensityJob {
   Real background = 0;                   ///< Pa
   Real pressure_scale = 0;               ///< makes the record's pressure term, kRecordPressure
   bool symmetric = false;                ///< kRecordPressure is for (17)
-  const Real* density_factor = nullptr;  ///< with (34): the lattice's factor at each particle's own radius
 
   NeighborLists* lists = nullptr;
   std::uint32_t* list_at = nullptr;  ///< per particle, in the share's entries

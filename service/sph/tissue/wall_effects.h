@@ -60,7 +60,7 @@ class WallEffects {
         const Real x = p.x[i] * constants_.h;
         const Real y = p.y[i] * constants_.h;
         const Real z = p.z[i] * constants_.h;
-        if (!field_.sample(x, y, z, entry.wall)) continue;
+        if (!field_.sample(x, y, z, entry.wall, p.radius.empty() ? Real(1) : p.radius[i])) continue;
         if (!wounds.empty())
           closeBy(Real(1) - static_cast<Real>(wounds.openFraction(Eigen::Matrix<Real, 3, 1>{x, y, z}.template cast<double>())),
                   entry.wall);
@@ -131,7 +131,7 @@ class WallEffects {
     Real drag = Real(0);
     if (constants_.viscosity_factor > Real(0)) {
       const Real viscosity = p.inverse_viscosity.empty() ? constants_.viscosity : Real(1) / p.inverse_viscosity[i];
-      drag = constants_.viscosity_factor * viscosity / density * entry.wall.friction;
+      drag = constants_.viscosity_factor * passes.viscosityFactor(i) * viscosity / density * entry.wall.friction;
     }
     if (drag_rates != nullptr) {
       drag_rates[i] = drag;

@@ -195,7 +195,7 @@ TEST(Effects, TheCatalogueNamesEachWithItsSource) {
     EXPECT_FALSE(effect.source.empty());
     EXPECT_FALSE(effect.deviation.empty());
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "applied_force"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "core_radius", "repulsion", "applied_force"}));
 }
 
 TEST(Effects, TheirSettingsEnableThem) {
@@ -213,6 +213,10 @@ TEST(Effects, TheirSettingsEnableThem) {
   only_enabled("pressure");
   description.effects.viscosity.emplace();
   only_enabled("viscosity");
+  description.effects.core_radius.emplace();
+  only_enabled("core_radius");
+  description.effects.repulsion.emplace();
+  only_enabled("repulsion");
   description.effects.applied_force.emplace();
   only_enabled("applied_force");
   EXPECT_FALSE(effectEnabled(description, "surface_tension"));
