@@ -61,6 +61,10 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_,
                            (description.domain.upper - description.domain.lower).norm());
   }
+  if (description.effects.surface_tension) {
+    surface_tension_.emplace(*description.effects.surface_tension, sweepsOf<Real>(target, sweepChoice(description)),
+                             lattice.particle_mass, description.rest_density, h_, description.capacity);
+  }
 }
 
 template <class Real>
@@ -194,6 +198,7 @@ void WorldCore<Real>::computeAccelerations() {
   counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
   clock_.lap(Stage::density);
   passes_.force(grid_, particles_, count_, shares_, *executor_);
+  if (surface_tension_) surface_tension_->add(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
   clock_.lap(Stage::force);
   walls_.addForces(particles_, passes_, shares_, *executor_);
   if (applied_force_ && !applied_force_->empty()) {

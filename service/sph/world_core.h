@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "service/sph/effects/applied_force.h"
+#include "service/sph/effects/surface_tension.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"
@@ -78,6 +79,7 @@ class WorldCore final : public World {
   WallEffects<Real> walls_;
   WoundSet wounds_;
   std::optional<AppliedForce<Real>> applied_force_;
+  std::optional<SurfaceTension<Real>> surface_tension_;
   std::vector<DriftResult<Real>> drift_results_;
   std::vector<KickResult<Real>> kick_results_;
 

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/passes/pair_passes.h"
+#include "service/sph/passes/sweep_table.h"
 #include "service/sph/rest_lattice.h"
 #include "service/sph/tissue/wall_effects.h"
 #include "service/sph/world_description.h"
@@ -58,6 +60,10 @@ inline TimeStepLimits timeStepLimits(const WorldDescription& description, double
   const double viscosity = largestViscosity(description);
   const double h = description.supportRadius();
   if (viscosity > 0.0) limits.viscous = 0.045 * h * h * description.rest_density / viscosity;
+  if (const auto& tension = description.effects.surface_tension; tension && tension->coefficient > 0.0) {
+    const double spacing3 = description.particleVolume();
+    limits.capillary = 0.25 * std::sqrt(description.rest_density * spacing3 / (2.0 * std::numbers::pi * tension->coefficient));
+  }
   return limits;
 }
 
@@ -99,6 +105,19 @@ inline PassChoice passChoice(const WorldDescription& description) {
   return {description.kernel, periodic[0] || periodic[1] || periodic[2]};
 }
 
+inline SweepChoice sweepChoice(const WorldDescription& description) {
+  return {passChoice(description).periodic, description.effects.core_radius.has_value()};
+}
+
+/// `target` is one of this build and machine.
+template <class Real>
+const SweepTable<Real>& sweepsOf([[maybe_unused]] SimdTarget target, const SweepChoice& choice) {
+  if constexpr (std::is_same_v<Real, double>)
+    return referenceSweeps(choice);
+  else
+    return *findSweeps(target, choice);
+}
+
 inline PairLayout pairLayout(const WorldDescription& description) {
   return {pairSet(description), !description.tissue.empty(), description.effects.surface_tension.has_value()};
 }
@@ -119,6 +138,9 @@ WallConstants<Real> wallConstants(const WorldDescription& description, const Res
   if (description.effects.viscosity) {
     constants.viscosity_factor = static_cast<Real>(lattice.viscosity_factor);
     constants.viscosity = static_cast<Real>(description.effects.viscosity->viscosity);
+  }
+  if (const auto& adhesion = description.effects.adhesion) {
+    constants.adhesion = {static_cast<Real>(adhesion->acceleration), static_cast<Real>(description.spacing), constants.h};
   }
   return constants;
 }

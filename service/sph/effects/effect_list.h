@@ -12,7 +12,7 @@ struct EffectRow {
   bool (*enabled)(const EffectSettings& settings);
 };
 
-inline constexpr std::array<EffectRow, 4> kEffects{{
+inline constexpr std::array<EffectRow, 6> kEffects{{
     {{"gravity", "F of (9)", "the paper", "none"}, [](const EffectSettings& s) { return s.gravity.has_value(); }},
     {{"pressure", "(16)(19)(20)", "Monaghan 1992; Wendland 1995",
       "variational (16) instead of (17), Wendland C2 for density and gradient, p >= 0"},
@@ -20,6 +20,11 @@ inline constexpr std::array<EffectRow, 4> kEffects{{
     {{"viscosity", "(25)", "Brookshaw 1985; Morris 1997; Cleary & Monaghan 1999",
       "Brookshaw form with harmonic mean, calibrated on the rest lattice, instead of the Laplacian of (33)"},
      [](const EffectSettings& s) { return s.viscosity.has_value(); }},
+    {{"surface_tension", "(21)-(23)", "Brackbill 1992; Morris 2000; Breinlinger 2013",
+      "curvature of kept normals instead of the Laplacian of the colour field; contact angle; no net force on a free body"},
+     [](const EffectSettings& s) { return s.surface_tension.has_value(); }},
+    {{"adhesion", "-", "bleedsim", "not in the paper as a formula: a pull to tissue within h"},
+     [](const EffectSettings& s) { return s.adhesion.has_value(); }},
     {{"applied_force", "-", "bleedsim", "not in the paper: force of instruments and commands on the fluid"},
      [](const EffectSettings& s) { return s.applied_force.has_value(); }},
 }};

@@ -79,6 +79,7 @@ class PairPasses {
       record[kRecordInverseRadius2] = inverse2;
       record[kRecordRadiusFactor] = inverse2 * inverse2 / radius;
     }
+    if (groups_ > 3) std::fill_n(record + kRecordNormalX, 4, Real(0));
   }
 
   /// Densities, pressures and neighbour lists of the `count` sorted and packed particles; returns how many took the slow path.

@@ -195,7 +195,8 @@ TEST(Effects, TheCatalogueNamesEachWithItsSource) {
     EXPECT_FALSE(effect.source.empty());
     EXPECT_FALSE(effect.deviation.empty());
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "applied_force"}));
+  EXPECT_EQ(names,
+            (std::set<std::string_view>{"gravity", "pressure", "viscosity", "surface_tension", "adhesion", "applied_force"}));
 }
 
 TEST(Effects, TheirSettingsEnableThem) {
@@ -215,6 +216,10 @@ TEST(Effects, TheirSettingsEnableThem) {
   onlyEnabled("viscosity");
   description.effects.applied_force.emplace();
   onlyEnabled("applied_force");
+  description.effects.surface_tension.emplace();
+  onlyEnabled("surface_tension");
+  description.effects.adhesion.emplace();
+  onlyEnabled("adhesion");
   EXPECT_FALSE(effectEnabled(description, "surface_tension"));
   EXPECT_FALSE(effectEnabled(description, ""));
 }
