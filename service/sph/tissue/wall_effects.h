@@ -23,7 +23,7 @@ struct WallConstants {
   Real viscosity_factor = 0;  ///< rest-lattice factor; 0 without viscosity
   Real viscosity = 0;         ///< Pa s, where particles carry none
   bool pressure = false;
-  Adhesion<Real> adhesion;    ///< of acceleration 0 without the effect
+  Adhesion<Real> adhesion;  ///< of acceleration 0 without the effect
 };
 
 template <class Real>
