@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "service/sph/effects/effect_list.h"
 #include "service/sph/seeding.h"
@@ -35,6 +36,18 @@ Status checkEffects(const EffectSettings& effects) {
   }
   if (effects.viscosity && !isFiniteNotNegative(effects.viscosity->viscosity)) {
     return invalid("viscosity must be finite and not negative");
+  }
+  if (const auto& tension = effects.surface_tension) {
+    if (!isFiniteNotNegative(tension->coefficient)) return invalid("the surface tension must be finite and not negative");
+    if (!(tension->normal_cutoff > 0.0) || !std::isfinite(tension->normal_cutoff)) {
+      return invalid("the cut-off of surface normals must be finite and greater than 0");
+    }
+    if (tension->contact_angle && !(*tension->contact_angle >= 0.0 && *tension->contact_angle <= std::numbers::pi)) {
+      return invalid("the contact angle must be 0 to pi rad");
+    }
+  }
+  if (effects.adhesion && !isFiniteNotNegative(effects.adhesion->acceleration)) {
+    return invalid("adhesion must be finite and not negative");
   }
   if (effects.applied_force && effects.applied_force->max_sources > kMostForceSources) {
     return invalid("applied_force.max_sources is " + std::to_string(effects.applied_force->max_sources) + "; use at most " +

@@ -84,6 +84,10 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_,
                            (description.domain.upper - description.domain.lower).norm());
   }
+  if (description.effects.surface_tension) {
+    surface_tension_.emplace(*description.effects.surface_tension, tables.sweeps, lattice.particle_mass, description.rest_density,
+                             h_, description.capacity);
+  }
 }
 
 template <class Real>
@@ -223,6 +227,7 @@ void WorldCore<Real>::computeAccelerations() {
   const double growth_time = kContactGrowth * description_.spacing / speed_of_sound_;
   passes_.setContactGrowth(static_cast<Real>(std::min(1.0, (time_ - repulsion_start_) / growth_time)));
   passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
+  if (surface_tension_) surface_tension_->add(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
   clock_.lap(Stage::force);
   if (solving_viscosity_) implicit_viscosity_->clearDrag(count_);
   walls_.addForces(particles_, passes_, shares_, *executor_, solving_viscosity_ ? implicit_viscosity_->drag() : nullptr);
@@ -384,6 +389,7 @@ MemoryUse WorldCore<Real>::memory() const {
   use.grid = grid_.bytes();
   use.tissue = walls_.bytes();
   if (implicit_viscosity_) use.effects += implicit_viscosity_->bytes();
+  if (surface_tension_) use.effects += surface_tension_->bytes();
   return use;
 }
 

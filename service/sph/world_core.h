@@ -10,6 +10,7 @@
 #include "service/sph/effects/applied_force.h"
 #include "service/sph/effects/core_radius.h"
 #include "service/sph/effects/implicit_viscosity.h"
+#include "service/sph/effects/surface_tension.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"
@@ -96,6 +97,7 @@ class WorldCore final : public World {
   std::optional<ImplicitViscosity<Real>> implicit_viscosity_;
   bool solving_viscosity_ = false;  // implicitly, in this step
   int viscosity_iterations_ = 0;
+  std::optional<SurfaceTension<Real>> surface_tension_;
   std::vector<DriftResult<Real>> drift_results_;
   std::vector<KickResult<Real>> kick_results_;
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/integrate/time_step.h"
@@ -108,6 +109,10 @@ inline TimeStepLimits timeStepLimits(const WorldDescription& description, double
   const double h = description.supportRadius() * radiusBounds(description).smallest;
   limits.contact = contactLimit(description.effects.repulsion);
   if (viscosity > 0.0) limits.viscous = 0.045 * h * h * description.rest_density / viscosity;
+  if (const auto& tension = description.effects.surface_tension; tension && tension->coefficient > 0.0) {
+    const double spacing3 = description.particleVolume();
+    limits.capillary = 0.25 * std::sqrt(description.rest_density * spacing3 / (2.0 * std::numbers::pi * tension->coefficient));
+  }
   return limits;
 }
 
@@ -173,6 +178,9 @@ WallConstants<Real> wallConstants(const WorldDescription& description, const Res
   if (description.effects.viscosity) {
     constants.viscosity_factor = static_cast<Real>(lattice.viscosity_factor);
     constants.viscosity = static_cast<Real>(description.effects.viscosity->viscosity);
+  }
+  if (const auto& adhesion = description.effects.adhesion) {
+    constants.adhesion = {static_cast<Real>(adhesion->acceleration), static_cast<Real>(description.spacing), constants.h};
   }
   return constants;
 }

@@ -58,7 +58,7 @@ enum RecordField : int {
   kRecordNormalX = 12,          ///< unit surface normal, out of nothing into the fluid; 0 in the bulk
   kRecordNormalY = 13,
   kRecordNormalZ = 14,
-  kRecordSurfaceVolume = 15,  ///< m/rho / h^3 where the particle is kept as surface, else 0
+  kRecordSurfaceWeight = 15,  ///< how far the particle counts as surface, 0 to 1
 };
 
 constexpr int kMaxRecordGroups = 4;

@@ -16,7 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 
 /// Body: Job (a SweepJob); kGroups, the record groups that it reads of each neighbour (from the first on; others by gatherGroup);
-/// a constructor from (job, i, own record); pair(p); finish(job, i).
+/// a constructor from (job, i, own record); pair(p); finish(job, i). Where it has needed() and that is false, its neighbours are
+/// not walked.
 /// kRadius: the pair's gradient is that of (W(h_i) + W(h_j))/2 with their mass factors, and kGroups covers the radius fields.
 template <class L, template <class> class KernelOf, bool kPeriodic, bool kRadius, class Body>
 class ListSweep {
@@ -42,10 +43,17 @@ class ListSweep {
  private:
   static constexpr int kGroups = kRadius && Body::kGroups < 3 ? 3 : Body::kGroups;
 
+  HWY_INLINE static bool isNeeded(const Body& body) {
+    if constexpr (requires { body.needed(); })
+      return body.needed();
+    else
+      return true;
+  }
+
   static void particle(const Job& job, std::uint32_t i, const std::uint32_t* list, int blocks) {
     const Real* own = job.record + static_cast<std::size_t>(i) * static_cast<std::uint32_t>(4 * job.groups);
     Body body{job, i, own};
-    addBlocks(job, own, list, blocks, body);
+    if (isNeeded(body)) addBlocks(job, own, list, blocks, body);
     body.finish(job, i);
   }
 
@@ -98,6 +106,10 @@ class ListSweep {
   static void particleWithoutList(const Job& job, std::uint32_t i, int row) {
     const Real* own = job.record + static_cast<std::size_t>(i) * static_cast<std::uint32_t>(4 * job.groups);
     Body body{job, i, own};
+    if (!isNeeded(body)) {
+      body.finish(job, i);
+      return;
+    }
     Apart apart{&job, own, &body};
     DirectSearch<L, kPeriodic>::runInRow(job, row, i, {&addChunk, &apart});
     body.finish(job, i);

@@ -82,6 +82,7 @@ class PairPasses {
       setInverseViscosity(i, p.inverse_viscosity.empty() ? Real(1) : p.inverse_viscosity[i]);
       record[kRecordPlatelet] = p.platelet.empty() ? Real(0) : p.platelet[i];
     }
+    if (groups_ > 3) std::fill_n(record + kRecordNormalX, 4, Real(0));
   }
 
   /// Densities, pressures and neighbour lists of the `count` sorted and packed particles; returns how many took the slow path.
