@@ -13,6 +13,9 @@
 
 namespace bleedsim::dds {
 
+/// Payload bytes of one particle: position, id and the FrameAttribute bits.
+std::size_t frameBytesPerParticle(std::uint32_t attributes);
+
 class FrameEncoder {
  public:
   explicit FrameEncoder(const Uuid& session);
@@ -26,7 +29,7 @@ class FrameEncoder {
   const bleed_v1_Frame& encode(const FrameSnapshot& snapshot, std::uint64_t seq);
 
  private:
-  static constexpr std::size_t kMaxAttributes = 5;
+  static constexpr std::size_t kMaxAttributes = 2 + kFrameBlocks.size();
 
   bleed_v1_Frame sample_{};
   std::array<bleed_v1_Attribute, kMaxAttributes> attributes_{};

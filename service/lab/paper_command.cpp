@@ -29,9 +29,10 @@ struct Experiment {
   const char* name;
   const char* help;
   Run run;
-  bool grows;   ///< has --particles
-  bool counts;  ///< has --counts and --seconds
-  bool models;  ///< has --model
+  bool grows;          ///< has --particles
+  bool counts;         ///< has --counts and --seconds
+  bool models;         ///< has --model
+  bool lasts = false;  ///< has --duration
 };
 
 constexpr std::array kExperiments{
@@ -81,24 +82,29 @@ ExitCode runAll(const std::vector<const Experiment*>& experiments, Arguments arg
   return ExitCode::done;
 }
 
-void addOptions(CLI::App& command, Arguments& arguments, bool grows, bool counts, bool models) {
+void addOptions(CLI::App& command, Arguments& arguments, const Experiment& has) {
   PaperOptions& options = arguments.options;
   command.add_option("-o,--output", options.folder, "Write pictures, plots, table and JSON here")->type_name("DIR");
   command.add_option("--scenes", options.scenes, "Folder of the scene files; default config/scenes/paper")->type_name("DIR");
   command.add_option("--threads", options.threads, "Threads")->capture_default_str()->check(CLI::Range(1, 64));
   command.add_option("--simd", arguments.simd, "auto, scalar, avx2 or avx512")->capture_default_str();
   command.add_flag("--json", arguments.json, "Print JSON");
-  if (grows) {
+  if (has.grows) {
     command.add_option("--particles", options.particles, "Particles at the end")
         ->capture_default_str()
         ->check(CLI::Range(100U, 1000000U));
   }
-  if (models) {
+  if (has.models) {
     command.add_option("--model", arguments.model, "sound, literal or both; fig6 and fig8 take the first")
         ->capture_default_str()
         ->check(CLI::IsMember({"sound", "literal", "both"}));
   }
-  if (counts) {
+  if (has.lasts) {
+    command.add_option("--duration", options.duration, "Simulated time of fig2, s")
+        ->capture_default_str()
+        ->check(CLI::Range(1e-3, 1e4));
+  }
+  if (has.counts) {
     command.add_option("--counts", options.counts, "Numbers of particles")
         ->capture_default_str()
         ->delimiter(',')
@@ -118,14 +124,14 @@ void addPaperCommand(CLI::App& app, Context& context) {
   for (const Experiment& experiment : kExperiments) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = paper->add_subcommand(experiment.name, experiment.help);
-    addOptions(*command, *arguments, experiment.grows, experiment.counts, experiment.models);
+    addOptions(*command, *arguments, experiment);
     command->callback(
         [arguments, one = &experiment, &context] { context.action = [arguments, one] { return runAll({one}, *arguments); }; });
     all.push_back(&experiment);
   }
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = paper->add_subcommand("all", "All of them, one after another");
-  addOptions(*command, *arguments, true, true, true);
+  addOptions(*command, *arguments, {"all", "", nullptr, true, true, true, true});
   command->callback([arguments, all, &context] { context.action = [arguments, all] { return runAll(all, *arguments); }; });
 }
 

@@ -18,7 +18,7 @@ struct SheetStyle {
   int columns = 0;       ///< 0: about as many as rows
   int gap = 12;          ///< pixels around and between the pictures
   bool lettered = true;  ///< captions start with (a), (b), ...
-  std::string title;     ///< over all of them; empty: none
+  std::string title{};   ///< over all of them; empty: none
 };
 
 /// Cells have the size of the largest picture; smaller ones stand in their middle. Every caption has up to three lines.

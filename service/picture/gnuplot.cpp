@@ -112,14 +112,14 @@ std::optional<std::filesystem::path> findProgram(const std::string& name, const 
 
 Status runGnuplot(const std::filesystem::path& program, const std::filesystem::path& folder, const std::string& script,
                   double patience_s) {
-  const auto cannotStart = [&program](int error) {
+  const auto cannot_start = [&program](int error) {
     return Status{StatusCode::unavailable,
                   "cannot start '" + program.string() + "': " + reasonOf(error) + "; check that gnuplot runs from a terminal"};
   };
   Pipe pipe;
-  if (!pipe.open()) return cannotStart(errno);
+  if (!pipe.open()) return cannot_start(errno);
   pid_t child = 0;
-  if (const int error = spawn(program, folder, script, pipe.writing(), child); error != 0) return cannotStart(error);
+  if (const int error = spawn(program, folder, script, pipe.writing(), child); error != 0) return cannot_start(error);
   pipe.closeWriting();
   std::string said;
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{patience_s});

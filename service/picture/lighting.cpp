@@ -21,7 +21,7 @@ std::uint8_t encode(double v) {
 
 // Indexed by the square root of the linear value, which is close to the sRGB curve: dark tones have as many steps as bright ones.
 const std::array<std::uint8_t, kSteps + 1>& encodeTable() {
-  static const auto table = [] {
+  static const auto kTable = [] {
     std::array<std::uint8_t, kSteps + 1> made{};
     for (std::size_t i = 0; i <= kSteps; ++i) {
       const double root = static_cast<double>(i) / kSteps;
@@ -29,16 +29,16 @@ const std::array<std::uint8_t, kSteps + 1>& encodeTable() {
     }
     return made;
   }();
-  return table;
+  return kTable;
 }
 
 const std::array<float, 256>& decodeTable() {
-  static const auto table = [] {
+  static const auto kTable = [] {
     std::array<float, 256> made{};
     for (std::size_t i = 0; i < made.size(); ++i) made[i] = decode(static_cast<int>(i));
     return made;
   }();
-  return table;
+  return kTable;
 }
 
 std::uint8_t encodeChannel(float value) {

@@ -43,14 +43,14 @@ std::vector<float> occlusionOf(const std::vector<float>& depth, int width, int h
       if (here == kNoDepth) continue;
       float sum = 0.0F;
       for (const Offset& offset : offsets) {
-        const auto nearerBy = [&](int px, int py) {
+        const auto nearer_by = [&](int px, int py) {
           const float there = depth[index(std::clamp(px, 0, width - 1), std::clamp(py, 0, height - 1))];
           const float lengths = (here - there) * per_length;
           // Beyond the far bound it fades to nothing; what is missing or much deeper is as if on the same level.
           if (lengths > kFarLengths) return std::max(0.0F, 2.0F * kFarLengths - lengths);
           return std::max(lengths, -kFarLengths);
         };
-        sum += std::clamp(0.5F * (nearerBy(x + offset.x, y + offset.y) + nearerBy(x - offset.x, y - offset.y)), 0.0F, 1.0F);
+        sum += std::clamp(0.5F * (nearer_by(x + offset.x, y + offset.y) + nearer_by(x - offset.x, y - offset.y)), 0.0F, 1.0F);
       }
       occlusion[index(x, y)] = sum / kPairs;
     }

@@ -63,8 +63,8 @@ struct BarPlot {
 struct PlotOptions {
   int width = 1200;  ///< pixels, 200 to 8000
   int height = 800;
-  std::optional<std::string> search_path;  ///< folders with ':' between; nothing: PATH of this process
-  double patience_s = 60.0;                ///< for gnuplot
+  std::optional<std::string> search_path{};  ///< folders with ':' between; nothing: PATH of this process
+  double patience_s = 60.0;                  ///< for gnuplot
 };
 
 struct PlotFiles {

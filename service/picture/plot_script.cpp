@@ -132,13 +132,26 @@ std::string look(const Series& series, std::size_t index) {
 }  // namespace
 
 std::string gnuplotString(std::string_view text) {
-  std::string quoted = "'";
+  std::string quoted = "\"";
   for (const char c : text) {
-    if (c == '\'') quoted += c;
+    if (c == '`') {
+      quoted += "\\140";  // it would run what follows
+      continue;
+    }
+    if (c == '"' || c == '\\') quoted += '\\';
     quoted += c;
   }
-  quoted += '\'';
+  quoted += '"';
   return quoted;
+}
+
+std::string gnuplotTic(std::string_view text) {
+  std::string plain;
+  for (const char c : text) {
+    if (c == '%') plain += c;
+    plain += c;
+  }
+  return gnuplotString(plain);
 }
 
 std::string scriptOf(const LinePlot& plot, const std::string& name, const std::string& output, const PlotOptions& options) {
@@ -183,7 +196,7 @@ std::string scriptOf(const BarPlot& plot, const std::string& name, const std::st
   std::string tics;
   for (std::size_t i = 0; i < plot.categories.size(); ++i) {
     longest = std::max(longest, plot.categories[i].size());
-    tics += joined(i == 0 ? "" : ", ", gnuplotString(plot.categories[i]), " ", std::to_string(i));
+    tics += joined(i == 0 ? "" : ", ", gnuplotTic(plot.categories[i]), " ", std::to_string(i));
   }
   const bool slanted = longest * plot.categories.size() > 80;
   script +=

@@ -25,8 +25,11 @@ std::string scriptOf(const BarPlot& plot, const std::string& name, const std::st
 
 /// The shortest digits that read back as the same number; "nan".
 std::string plotNumber(double value);
-/// The text as a gnuplot string between single quotes, in which nothing but the quote itself has a meaning.
+/// The text as a gnuplot string between double quotes: quotes, backslashes and backquotes are escaped, nothing else has a meaning
+/// there. Between single quotes gnuplot 5.4 reads doubled ones wrongly at the start and side by side.
 std::string gnuplotString(std::string_view text);
+/// The same for the name of a tic, in which '%' would start a format.
+std::string gnuplotTic(std::string_view text);
 /// A CSV field: quoted when needed, quotes doubled.
 std::string csvField(std::string_view text);
 

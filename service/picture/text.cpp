@@ -30,7 +30,7 @@ double inkAt(const Glyph& glyph, double x, double y, double dot) {
   const double lower = (1.0 - u) * dotAt(glyph, column, row + 1) + u * dotAt(glyph, column + 1, row + 1);
   const double density = (1.0 - v) * upper + v * lower;
   // A stroke's edge lies where half of the ink is; the threshold below one half makes strokes about one dot wide.
-  return std::clamp((density - 0.42) * std::max(dot, 1.0) * 0.9 + 0.5, 0.0, 1.0);
+  return std::clamp((density - 0.42) * std::max(dot, 1.0) * 1.2 + 0.5, 0.0, 1.0);
 }
 
 std::uint8_t mix(std::uint8_t below, std::uint8_t above, double alpha) {

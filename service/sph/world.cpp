@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "service/sph/effects/effect_list.h"
 #include "service/sph/seeding.h"
+#include "service/sph/world_checks.h"
 #include "service/sph/world_core.h"
 #include "service/sph/world_setup.h"
 
@@ -20,8 +22,8 @@ constexpr std::uint32_t kMostForceSources = 65'536;
 constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::count)> kStageNames{
     "emit", "move", "neighbors", "tissue", "density", "force", "body", "integrate"};
 constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)> kCounterNames{
-    "speed_clamped",   "acceleration_clamped", "tissue_projected",    "left_domain",  "emission_refused",
-    "inlet_withdrawn", "neighbor_overflow",    "force_without_fluid", "force_expired"};
+    "speed_clamped",   "acceleration_clamped", "tissue_projected",    "left_domain",   "emission_refused",
+    "inlet_withdrawn", "neighbor_overflow",    "force_without_fluid", "force_expired", "viscosity_unsolved"};
 
 Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
 
@@ -34,6 +36,18 @@ Status checkEffects(const EffectSettings& effects) {
   }
   if (effects.viscosity && !isFiniteNotNegative(effects.viscosity->viscosity)) {
     return invalid("viscosity must be finite and not negative");
+  }
+  if (const auto& tension = effects.surface_tension) {
+    if (!isFiniteNotNegative(tension->coefficient)) return invalid("the surface tension must be finite and not negative");
+    if (!(tension->normal_cutoff > 0.0) || !std::isfinite(tension->normal_cutoff)) {
+      return invalid("the cut-off of surface normals must be finite and greater than 0");
+    }
+    if (tension->contact_angle && !(*tension->contact_angle >= 0.0 && *tension->contact_angle <= std::numbers::pi)) {
+      return invalid("the contact angle must be 0 to pi rad");
+    }
+  }
+  if (effects.adhesion && !isFiniteNotNegative(effects.adhesion->acceleration)) {
+    return invalid("adhesion must be finite and not negative");
   }
   if (effects.applied_force && effects.applied_force->max_sources > kMostForceSources) {
     return invalid("applied_force.max_sources is " + std::to_string(effects.applied_force->max_sources) + "; use at most " +
@@ -72,15 +86,18 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
     return invalid("the largest fall or depth must be finite and not negative");
   }
   if (Status status = checkEffects(d.effects); !status.ok()) return status;
+  if (Status status = checkEffectSet(d); !status.ok()) return status;
   const double h = d.supportRadius();
-  const double c0 = speedOfSound(d);
+  const double c0 = options.speed_of_sound.value_or(speedOfSound(d));
   if (!(c0 > 0.0) || !std::isfinite(c0)) return invalid("the speed of sound must be greater than 0 m/s: set a design speed");
   double cells = 1.0;
   for (Eigen::Index a = 0; a < 3; ++a) {
     const double length = d.domain.upper[a] - d.domain.lower[a];
     if (!(length > 0.0) || !std::isfinite(length)) return invalid("the domain's upper corner must lie above its lower corner");
-    if (d.domain.periodic[static_cast<std::size_t>(a)] && length < 3.0 * h) {
-      return invalid("a periodic side must measure at least three support radii, " + std::to_string(3.0 * h) + " m");
+    const double shortest = 3.0 * h * radiusBounds(d).largest;
+    if (d.domain.periodic[static_cast<std::size_t>(a)] && length < shortest) {
+      return invalid("a periodic side must measure at least three of the largest support radii, " + std::to_string(shortest) +
+                     " m");
     }
     cells *= length / h + 2.0 * kThroatMargin;
   }
@@ -107,13 +124,16 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
 
 template <class Real>
 Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptions& options, SimdTarget target,
-                                     const PassTable<Real>& table) {
+                                     const WorldTables<Real>& tables) {
   const SmoothingKernel kernel{d.kernel, d.supportRadius()};
   const RestLattice lattice = calibrateRestLattice(kernel, d.spacing, d.rest_density);
-  Result<TissueField<Real>> tissue = TissueField<Real>::create(
-      d.tissue, {.kernel = kernel, .spacing = d.spacing, .particle_mass = lattice.particle_mass, .rest_density = d.rest_density});
+  Result<TissueField<Real>> tissue = TissueField<Real>::create(d.tissue, {.kernel = kernel,
+                                                                          .spacing = d.spacing,
+                                                                          .particle_mass = lattice.particle_mass,
+                                                                          .rest_density = d.rest_density,
+                                                                          .radii = radiusBounds(d)});
   if (!tissue) return tissue.status();
-  auto world = std::make_unique<WorldCore<Real>>(d, options, target, table, lattice, std::move(*tissue));
+  auto world = std::make_unique<WorldCore<Real>>(d, options, target, tables, lattice, std::move(*tissue));
   if (Status status = world->populate(); !status.ok()) return status;
   return std::unique_ptr<World>{std::move(world)};
 }
@@ -139,7 +159,8 @@ Result<std::unique_ptr<World>> createWorld(const WorldDescription& description, 
     if (options.simd != SimdTarget::automatic && options.simd != SimdTarget::scalar) {
       return invalid("double precision is the reference and runs on the scalar target only; use scalar or auto");
     }
-    return build<double>(description, options, SimdTarget::scalar, referencePasses(choice));
+    return build<double>(description, options, SimdTarget::scalar,
+                         {referencePasses(choice), referenceSweeps(sweepChoice(description))});
   }
   const SimdTarget target = options.simd == SimdTarget::automatic ? availableSimdTargets().front() : options.simd;
   const PassTable<float>* table = findPasses(target, choice);
@@ -150,7 +171,7 @@ Result<std::unique_ptr<World>> createWorld(const WorldDescription& description, 
     return Status{StatusCode::unsupported, "this machine or build lacks the SIMD target '" + std::string{simdTargetName(target)} +
                                                "'; available: " + names};
   }
-  return build<float>(description, options, target, *table);
+  return build<float>(description, options, target, {*table, *findSweeps(target, sweepChoice(description))});
 }
 
 void FrameBuffer::reserve(std::uint32_t capacity, std::uint32_t attributes_wanted) {
@@ -160,6 +181,8 @@ void FrameBuffer::reserve(std::uint32_t capacity, std::uint32_t attributes_wante
   velocity.resize(attributes_wanted & kFrameVelocity ? 3 * n : 0);
   density.resize(attributes_wanted & kFrameDensity ? n : 0);
   viscosity.resize(attributes_wanted & kFrameViscosity ? n : 0);
+  platelet.resize(attributes_wanted & kFramePlatelet ? n : 0);
+  radius.resize(attributes_wanted & kFrameRadius ? n : 0);
 }
 
 std::string_view stageName(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }

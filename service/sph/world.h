@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,6 +34,9 @@ struct WorldOptions {
   /// with the square of the count. All particles then stand in one cell, so one thread does all pair sums, and from about 1800
   /// particles on no lists are kept and Counter::neighbor_overflow counts every particle-step. Not with periodic sides.
   bool complete_search = false;
+  /// m/s, instead of the description's: a world that takes over another one's state must keep its speed of sound, because a
+  /// change of it pumps energy.
+  std::optional<double> speed_of_sound = {};
 };
 
 /// The stages of World::step, in order.
@@ -50,6 +54,7 @@ enum class Counter {
   neighbor_overflow,     ///< particle-steps beyond the neighbour list, handled by the slow path
   force_without_fluid,   ///< source-steps with no particle within reach
   force_expired,         ///< force sources that ended by their time
+  viscosity_unsolved,    ///< steps whose implicit viscosity did not reach its tolerance
   count
 };
 std::string_view counterName(Counter counter);
@@ -59,6 +64,8 @@ enum FrameAttribute : std::uint32_t {
   kFrameVelocity = 1u << 0,
   kFrameDensity = 1u << 1,
   kFrameViscosity = 1u << 2,
+  kFramePlatelet = 1u << 3,  ///< with the platelets effect
+  kFrameRadius = 1u << 4,    ///< with the core radius effect
 };
 
 /// A copy of the visible particles; buffers are sized once with reserve() and reused. Order is storage order; ids are stable.
@@ -72,6 +79,8 @@ struct FrameBuffer {
   std::vector<float> velocity;    ///< 3 x count, m/s
   std::vector<float> density;     ///< count, kg/m^3
   std::vector<float> viscosity;   ///< count, Pa s
+  std::vector<float> platelet;    ///< count, P, 0 to 1
+  std::vector<float> radius;      ///< count, own support radius, m
 
   void reserve(std::uint32_t capacity, std::uint32_t attributes_wanted);
 };
@@ -94,6 +103,7 @@ struct WorldStats {
   double mean_density_error = 0.0;  ///< mean of max(0, rho/rho0 - 1)
   double max_density_error = 0.0;
   double max_speed = 0.0;                                              ///< m/s
+  int viscosity_iterations = 0;                                        ///< of the implicit solve in the last step; 0: explicit
   double kinetic_energy = 0.0;                                         ///< J
   Vec3 momentum = Vec3::Zero();                                        ///< kg m/s, of the free particles
   Vec3 center = Vec3::Zero();                                          ///< m, of the free particles' mass; zero without any
@@ -140,6 +150,13 @@ class World {
   virtual void copyFrame(FrameBuffer& frame, std::uint32_t attributes) const = 0;
   /// Hash of the complete state (positions, velocities, ids, time); equal states have equal hashes.
   virtual std::uint64_t stateHash() const = 0;
+
+  /// Takes over the complete state of `from`, a world of the same description but for its effects: particles, wounds with their
+  /// throats, force sources, ledgers, counters, time and step. Goes on as `from` would have; the first half kick is still that of
+  /// the effects of `from`. Quantities that `from` does not carry start as in fresh blood. Allocates nothing. `from` must not be
+  /// stepped afterwards. invalid_argument: the descriptions differ in more than effects; capacity: more force sources than
+  /// this world has; both leave both worlds as they are.
+  virtual Status adopt(World& from) = 0;
 
   virtual const WorldDescription& description() const = 0;
   virtual SimdTarget simdTarget() const = 0;

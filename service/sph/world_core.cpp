@@ -12,6 +12,9 @@
 namespace bleedsim::sph {
 namespace {
 
+// The implicit solve stays on until the explicit limit has left the others this far behind: it must not flicker.
+constexpr double kImplicitBand = 1.2;
+
 // Below this a second thread costs more than it brings.
 constexpr std::uint32_t kParticlesForThreads = 2000;
 
@@ -20,16 +23,19 @@ std::array<Real, 3> inSupportRadii(const Vec3& v, double h) {
   return {static_cast<Real>(v.x() / h), static_cast<Real>(v.y() / h), static_cast<Real>(v.z() / h)};
 }
 
+// Pairs that are in contact when repulsion is switched on would burst apart: contacts grow from nothing over this time, in dx/c0.
+constexpr double kContactGrowth = 200.0;
+
 std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
 template <class Real>
 WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptions& options, SimdTarget target,
-                           const PassTable<Real>& table, const RestLattice& lattice, TissueField<Real> tissue)
+                           const WorldTables<Real>& tables, const RestLattice& lattice, TissueField<Real> tissue)
     : description_{description},
       target_{target},
-      speed_of_sound_{sph::speedOfSound(description)},
+      speed_of_sound_{options.speed_of_sound.value_or(sph::speedOfSound(description))},
       lattice_{lattice},
       h_{description.supportRadius()},
       domain_{inSupportRadii<Real>(description.domain.lower, h_), inSupportRadii<Real>(description.domain.upper, h_),
@@ -40,27 +46,48 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
       executor_{makeExecutor(options.threads)},
       particles_{description.capacity, particleFields<Real>(description), 0},
       sorted_{description.capacity, particleFields<Real>(description), Particles<Real>::kArrays},
-      grid_{description.capacity,        asArray(description.domain.lower / h_),    asArray(description.domain.upper / h_),
-            description.domain.periodic, kThroatMargin / description.support_ratio, options.threads,
-            options.complete_search},
-      passes_{table,
+      grid_{description.capacity,
+            asArray(description.domain.lower / h_),
+            asArray(description.domain.upper / h_),
+            description.domain.periodic,
+            kThroatMargin / description.support_ratio,
+            options.threads,
+            radiusBounds(description).largest},
+      passes_{tables.passes,
               pairLayout(description),
               pairConstants<Real>(description, lattice, speed_of_sound_),
               description.capacity,
-              description.support_ratio,
-              options.threads},
+              description.support_ratio * radiusBounds(description).largest,
+              options.threads,
+              latticeFactors<Real>(description)},
       walls_{std::move(tissue), wallConstants<Real>(description, lattice, speed_of_sound_), description.capacity,
              options.threads},
       wounds_{description, speed_of_sound_},
       drift_results_(static_cast<std::size_t>(options.threads)),
       kick_results_(static_cast<std::size_t>(options.threads)) {
+  if (options.complete_search) grid_.useOneCell();
   if (description.effects.gravity) {
     const Vec3& g = description.effects.gravity->acceleration;
     gravity_ = {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(g.z())};
   }
+  if (const auto& core_radius = description.effects.core_radius) {
+    core_radius_.emplace(*core_radius, description.rest_density, options.threads);
+  }
+  if (mayNeedImplicitViscosity(description, speed_of_sound_)) {
+    const ViscositySettings& viscosity = *description.effects.viscosity;
+    const bool varies = viscosityVaries(description);
+    const auto product = varies ? tables.sweeps.viscous_product : tables.sweeps.uniform_viscous_product;
+    implicit_viscosity_.emplace(ImplicitSettings{viscosity.solve_tolerance, viscosity.max_iterations}, product,
+                                Real(5) * pairConstants<Real>(description, lattice, speed_of_sound_).viscosity_scale,
+                                description.capacity);
+  }
   if (description.effects.applied_force) {
     applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_,
                            (description.domain.upper - description.domain.lower).norm());
+  }
+  if (description.effects.surface_tension) {
+    surface_tension_.emplace(*description.effects.surface_tension, tables.sweeps, lattice.particle_mass, description.rest_density,
+                             h_, description.capacity);
   }
 }
 
@@ -80,6 +107,7 @@ Status WorldCore<Real>::populate() {
       particles_.vz[i] = static_cast<Real>(block.velocity.z());
       particles_.id[i] = next_id_++;
       if (!particles_.inverse_viscosity.empty()) particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity);
+      if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
     });
   }
   injected_ = count_;
@@ -91,12 +119,14 @@ Status WorldCore<Real>::populate() {
   emit(0.0);
   chooseShares();
   for (std::uint32_t i = 0; i < count_; ++i) grid_.cells()[i] = 0;
+  // Implicit viscosity is no part of the accelerations, and these are the first ones.
+  solving_viscosity_ = implicit_viscosity_.has_value() && (description_.effects.viscosity->solve == ViscositySolve::implicit ||
+                                                           limits_.viscous < 0.4 * limits_.spacing / limits_.speed_of_sound);
   findNeighbors(boundsOf());
   computeAccelerations();
   finishStep(0.0);
   if (faulted_) return {StatusCode::internal, "the scene's first accelerations are not finite"};
-  next_dt_ = stableTimeStep(limits_, max_speed_, std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2)),
-                            std::numeric_limits<double>::infinity());
+  chooseTimeStep(std::numeric_limits<double>::infinity());
   return {};
 }
 
@@ -115,7 +145,7 @@ Status WorldCore<Real>::step(double dt_limit) {
   computeAccelerations();
   finishStep(dt);
   if (faulted_) return {StatusCode::internal, "the state is not finite; the world is faulted and stays as it is"};
-  next_dt_ = stableTimeStep(limits_, max_speed_, std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2)), stable);
+  chooseTimeStep(stable);
   last_dt_ = dt;
   time_ += dt;
   ++steps_;
@@ -145,6 +175,7 @@ void WorldCore<Real>::emit(double dt) {
     if (!particles_.inverse_viscosity.empty()) {
       particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / description_.effects.viscosity->viscosity);
     }
+    if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
     std::fill_n(passes_.acceleration() + std::size_t{i} * 4, 4, Real(0));
     return true;
   });
@@ -172,7 +203,7 @@ void WorldCore<Real>::move(double dt) {
 
 template <class Real>
 void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds) {
-  grid_.cover(bounds);
+  grid_.cover(bounds, passes_.reach());
   executor_->run(shares_, [&](int share) {
     const ShareRange range{count_, share, shares_};
     std::uint32_t* cells = grid_.cells();
@@ -194,9 +225,13 @@ void WorldCore<Real>::computeAccelerations() {
   clock_.lap(Stage::tissue);
   counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
   clock_.lap(Stage::density);
-  passes_.force(grid_, particles_, count_, shares_, *executor_);
+  const double growth_time = kContactGrowth * description_.spacing / speed_of_sound_;
+  passes_.setContactGrowth(static_cast<Real>(std::min(1.0, (time_ - repulsion_start_) / growth_time)));
+  passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
+  if (surface_tension_) surface_tension_->add(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
   clock_.lap(Stage::force);
-  walls_.addForces(particles_, passes_, shares_, *executor_);
+  if (solving_viscosity_) implicit_viscosity_->clearDrag(count_);
+  walls_.addForces(particles_, passes_, shares_, *executor_, solving_viscosity_ ? implicit_viscosity_->drag() : nullptr);
   if (applied_force_ && !applied_force_->empty()) {
     const AppliedForceEvents events = applied_force_->add(time_, grid_, particles_, passes_.acceleration());
     counter(Counter::force_expired) += events.expired;
@@ -222,10 +257,36 @@ void WorldCore<Real>::finishStep(double dt) {
   }
   faulted_ = !total.finite;
   if (faulted_) return;
+  if (solving_viscosity_ && dt > 0.0) solveViscosity(dt);
+  if (core_radius_ && dt > 0.0) {
+    passes_.setReach(core_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
+  }
   counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
   counter(Counter::speed_clamped) += total.speed_clamped;
   counter(Counter::acceleration_clamped) += total.acceleration_clamped;
   max_speed_ = std::sqrt(static_cast<double>(total.max_speed2));
+}
+
+template <class Real>
+void WorldCore<Real>::solveViscosity(double dt) {
+  const SolveOutcome outcome = implicit_viscosity_->solve(dt, grid_, particles_, passes_, count_, shares_, *executor_);
+  viscosity_iterations_ = outcome.iterations;
+  if (!outcome.converged) ++counter(Counter::viscosity_unsolved);
+}
+
+template <class Real>
+void WorldCore<Real>::chooseTimeStep(double before) {
+  TimeStepLimits inviscid = limits_;
+  inviscid.viscous = std::numeric_limits<double>::infinity();
+  const double acceleration = std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2));
+  if (implicit_viscosity_) {
+    solving_viscosity_ =
+        description_.effects.viscosity->solve == ViscositySolve::implicit ||
+        limits_.viscous < (solving_viscosity_ ? kImplicitBand : 1.0) *
+                              stableTimeStep(inviscid, max_speed_, acceleration, std::numeric_limits<double>::infinity());
+    if (!solving_viscosity_) viscosity_iterations_ = 0;
+  }
+  next_dt_ = stableTimeStep(solving_viscosity_ ? inviscid : limits_, max_speed_, acceleration, before);
 }
 
 template <class Real>
@@ -299,6 +360,7 @@ void WorldCore<Real>::collectStats(WorldStats& stats) const {
   stats.emitted_volume = wounds_.emittedVolume();
   stats.commanded_volume = wounds_.commandedVolume();
   stats.max_speed = max_speed_;
+  stats.viscosity_iterations = viscosity_iterations_;
   addParticleStats(particles_, passes_.density(), count_, h_, description_.rest_density, lattice_.particle_mass, stats);
   stats.stage_seconds = clock_.seconds();
   stats.counters = counters_;
@@ -327,6 +389,8 @@ MemoryUse WorldCore<Real>::memory() const {
   use.lists = passes_.listBytes();
   use.grid = grid_.bytes();
   use.tissue = walls_.bytes();
+  if (implicit_viscosity_) use.effects += implicit_viscosity_->bytes();
+  if (surface_tension_) use.effects += surface_tension_->bytes();
   return use;
 }
 

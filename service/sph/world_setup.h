@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/passes/pair_passes.h"
+#include "service/sph/passes/sweep_table.h"
 #include "service/sph/rest_lattice.h"
 #include "service/sph/tissue/wall_effects.h"
 #include "service/sph/world_description.h"
@@ -15,6 +17,18 @@ namespace bleedsim::sph {
 
 /// Wounds' throats may reach this far out of the domain, in spacings.
 constexpr double kThroatMargin = 16.0;
+
+/// Of particles' own support radii, over h.
+inline RadiusBounds radiusBounds(const WorldDescription& description) {
+  const auto& core_radius = description.effects.core_radius;
+  return core_radius ? RadiusBounds{core_radius->smallest, core_radius->largest} : RadiusBounds{};
+}
+
+template <class Real>
+std::optional<LatticeFactors<Real>> latticeFactors(const WorldDescription& description) {
+  if (!description.effects.core_radius) return std::nullopt;
+  return LatticeFactors<Real>{{description.kernel, description.supportRadius()}, description.spacing, radiusBounds(description)};
+}
 
 /// Whether particles differ in viscosity: by their block, their shear rate, their platelets or their support radius.
 inline bool viscosityVaries(const WorldDescription& description) {
@@ -50,14 +64,55 @@ inline double largestViscosity(const WorldDescription& description) {
   return largest;
 }
 
+/// The largest viscosity that any particle can come to have, Pa s: by its block, at rest, or clotted.
+inline double largestPossibleViscosity(const WorldDescription& description) {
+  if (!description.effects.viscosity) return 0.0;
+  double largest = largestViscosity(description);
+  const Rheology& rheology = description.effects.viscosity->rheology;
+  if (const auto* carreau = std::get_if<CarreauYasudaRheology>(&rheology)) largest = std::max(largest, carreau->zero_shear);
+  if (const auto* casson = std::get_if<CassonRheology>(&rheology)) {
+    const double root = std::sqrt(casson->viscosity) + std::sqrt(casson->yield_stress / casson->regularisation_shear_rate);
+    largest = std::max(largest, root * root);
+  }
+  if (description.effects.platelets) largest = std::max(largest, description.effects.platelets->clot_viscosity);
+  return largest;
+}
+
+/// Whether viscosity is solved implicitly, or may come to be.
+inline bool mayNeedImplicitViscosity(const WorldDescription& description, double speed_of_sound) {
+  const auto& viscosity = description.effects.viscosity;
+  if (!viscosity || viscosity->solve == ViscositySolve::explicit_) return false;
+  if (description.kernel != KernelType::wendland_c2) return false;  // its sweeps are compiled for one kernel
+  if (viscosity->solve == ViscositySolve::implicit) return true;
+  const double h = description.supportRadius() * radiusBounds(description).smallest;
+  const double viscous = 0.045 * h * h * description.rest_density / largestPossibleViscosity(description);
+  return viscous < 0.4 * description.spacing / speed_of_sound;
+}
+
+/// TimeStepLimits::contact: 0.1 where a touching pair is as stiff as with the default settings, shorter as the frequency of a
+/// harder one, w^2 = 2 D* (n1 - n2)/(contact distance/dx)^3 (c0/dx)^2 at first touch; 0 without the effect.
+inline double contactLimit(const std::optional<RepulsionSettings>& repulsion) {
+  if (!repulsion) return 0.0;
+  const auto stiffness = [](const RepulsionSettings& r) {
+    return r.strength * (r.power_1 - r.power_2) / (r.contact_distance * r.contact_distance * r.contact_distance);
+  };
+  const double harder = stiffness(*repulsion) / stiffness(RepulsionSettings{});
+  return harder > 1.0 ? 0.1 / std::sqrt(harder) : 0.1;
+}
+
 inline TimeStepLimits timeStepLimits(const WorldDescription& description, double speed_of_sound) {
   TimeStepLimits limits;
   limits.spacing = description.spacing;
   limits.speed_of_sound = speed_of_sound;
   limits.scene = description.max_dt;
   const double viscosity = largestViscosity(description);
-  const double h = description.supportRadius();
+  const double h = description.supportRadius() * radiusBounds(description).smallest;
+  limits.contact = contactLimit(description.effects.repulsion);
   if (viscosity > 0.0) limits.viscous = 0.045 * h * h * description.rest_density / viscosity;
+  if (const auto& tension = description.effects.surface_tension; tension && tension->coefficient > 0.0) {
+    const double spacing3 = description.particleVolume();
+    limits.capillary = 0.25 * std::sqrt(description.rest_density * spacing3 / (2.0 * std::numbers::pi * tension->coefficient));
+  }
   return limits;
 }
 
@@ -99,6 +154,10 @@ inline PassChoice passChoice(const WorldDescription& description) {
   return {description.kernel, periodic[0] || periodic[1] || periodic[2]};
 }
 
+inline SweepChoice sweepChoice(const WorldDescription& description) {
+  return {passChoice(description).periodic, description.effects.core_radius.has_value()};
+}
+
 inline PairLayout pairLayout(const WorldDescription& description) {
   return {pairSet(description), !description.tissue.empty(), description.effects.surface_tension.has_value()};
 }
@@ -119,6 +178,9 @@ WallConstants<Real> wallConstants(const WorldDescription& description, const Res
   if (description.effects.viscosity) {
     constants.viscosity_factor = static_cast<Real>(lattice.viscosity_factor);
     constants.viscosity = static_cast<Real>(description.effects.viscosity->viscosity);
+  }
+  if (const auto& adhesion = description.effects.adhesion) {
+    constants.adhesion = {static_cast<Real>(adhesion->acceleration), static_cast<Real>(description.spacing), constants.h};
   }
   return constants;
 }

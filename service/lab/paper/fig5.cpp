@@ -176,14 +176,14 @@ Result<std::vector<Fig5Run>> runFig5Variants(const sph::WorldDescription& scene,
   const std::vector<ModelFace> faces = facesOf(options.model);
   const double all = static_cast<double>(faces.size() * kFig5Variants.size());
   for (const ModelFace& face : faces) {
-    const auto model = inModel(scene, face);
+    const sph::WorldDescription model = inModel(scene, face);
     for (const Fig5Variant& variant : kFig5Variants) {
-      std::string refusal = model ? "" : model.status().message();
+      std::string refusal;
       if (face.literal && !variant.radius && variant.tension)
         refusal = "the literal model has no (34) that could be switched off";
       if (refusal.empty()) {
-        sph::WorldDescription world = *model;
-        world.effects = effectsOf(model->effects, variant);
+        sph::WorldDescription world = model;
+        world.effects = effectsOf(model.effects, variant);
         runs.push_back(runOne(world, options, face.name, variant.letter));
       } else {
         Fig5Run run;

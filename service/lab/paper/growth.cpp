@@ -168,12 +168,11 @@ Result<PaperReport> runGrowth(const PaperOptions& options, const std::string& na
   const auto scene = loadPaperScene(options, name);
   if (!scene) return scene.status();
   const ModelFace face = facesOf(options.model).front();
-  const auto world = inModel(scene->world, face);
-  if (!world) return world.status();
-  const auto growth = growBlood(*world, options, progress);
+  const sph::WorldDescription world = inModel(scene->world, face);
+  const auto growth = growBlood(world, options, progress);
   if (!growth) return growth.status();
   if (!options.folder.empty()) {
-    if (Status status = drawGrowth(*growth, *world, options, name); !status.ok()) return status;
+    if (Status status = drawGrowth(*growth, world, options, name); !status.ok()) return status;
   }
   return PaperReport{toJson(*growth, options, name, face.name), toText(*growth, name, face.name)};
 }

@@ -9,9 +9,10 @@ std::vector<ModelFace> facesOf(ModelChoice choice) {
   return faces;
 }
 
-Result<sph::WorldDescription> inModel(const sph::WorldDescription& scene, const ModelFace& face) {
-  if (face.literal) return Status{StatusCode::unsupported, "this build has no literal model"};
-  return scene;
+sph::WorldDescription inModel(const sph::WorldDescription& scene, const ModelFace& face) {
+  sph::WorldDescription world = scene;
+  if (face.literal) world.effects.core_radius.reset();
+  return world;
 }
 
 }  // namespace bleedsim::lab

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "service/lab/paper/paper_options.h"
-#include "service/status/status.h"
 
 namespace bleedsim::lab {
 
@@ -17,7 +16,7 @@ struct ModelFace {
 /// The models that the options ask for, sound first.
 std::vector<ModelFace> facesOf(ModelChoice choice);
 
-/// The scene in that model. unsupported: this build lacks it.
-Result<sph::WorldDescription> inModel(const sph::WorldDescription& scene, const ModelFace& face);
+/// The scene in that model; the literal one has no core radius (34).
+sph::WorldDescription inModel(const sph::WorldDescription& scene, const ModelFace& face);
 
 }  // namespace bleedsim::lab

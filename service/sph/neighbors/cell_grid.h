@@ -1,7 +1,8 @@
-// A uniform grid of cells of one support radius, rebuilt every step by a stable counting sort of the particles.
+// A uniform grid of cells as wide as the search reaches, rebuilt every step by a stable counting sort of the particles.
 //
 // The grid covers the particles only, so far empty space costs nothing. Cells are anchored at the coordinate origin (at the
 // domain's corner along a periodic axis): the order of the particles does not depend on where the bounding box happens to be.
+// Along periodic axes cells are as wide as the search may ever reach.
 #pragma once
 
 #include <algorithm>
@@ -42,17 +43,17 @@ class CellGrid {
 
   CellGrid() = default;
   /// `lower`, `upper`: the domain in support radii; particles may also stand up to `margin` outside of it (wounds' throats).
-  /// `one_cell`: all particles stand in one cell, of any size; without periodic sides only.
+  /// `largest_cell` is the largest that cover() will be given.
   CellGrid(std::uint32_t capacity, const std::array<double, 3>& lower, const std::array<double, 3>& upper,
-           const std::array<bool, 3>& periodic, double margin, int shares, bool one_cell = false)
-      : one_cell_{one_cell}, cell_of_{capacity, 23} {
+           const std::array<bool, 3>& periodic, double margin, int shares, double largest_cell = 1.0)
+      : cell_of_{capacity, 23} {
     view_.periodic = periodic;
     std::size_t most = 1;
     for (std::size_t a = 0; a < 3; ++a) {
       const double length = upper[a] - lower[a];
       if (periodic[a]) {
-        const int cells = std::max(3, static_cast<int>(length));
-        origin_[a] = static_cast<Real>(lower[a]);
+        const int cells = std::max(3, static_cast<int>(length / largest_cell));
+        corner_[a] = static_cast<Real>(lower[a]);
         scale_[a] = static_cast<Real>(cells / length);
         view_.period[a] = static_cast<Real>(length);
         view_.size[a] = cells + 2;
@@ -70,6 +71,9 @@ class CellGrid {
     view_.start = start_.data();
   }
 
+  /// From now on all particles stand in one cell, whatever its size. Not with periodic sides.
+  void useOneCell() { one_cell_ = true; }
+
   const GridView<Real>& view() const { return view_; }
   std::size_t bytes() const {
     std::size_t sum = start_.bytes() + cell_of_.bytes();
@@ -78,18 +82,19 @@ class CellGrid {
   }
   std::uint32_t* cells() { return cell_of_.data(); }
 
-  /// Lays the grid over the bounds. Particles beyond the margin fall into the outermost cells: right, though slow, for the few
-  /// unseen ones of a deep throat.
-  void cover(const Bounds<Real>& bounds) {
+  /// Lays the grid over the bounds, with cells of at least `cell` >= 1 support radii. Particles beyond the margin fall into the
+  /// outermost cells: right, though slow, for the few unseen ones of a deep throat.
+  void cover(const Bounds<Real>& bounds, Real cell = Real(1)) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (view_.periodic[a]) continue;
+      scale_[a] = Real(1) / cell;
       if (one_cell_ || bounds.lower[a] > bounds.upper[a]) {
         origin_[a] = Real(0);
         view_.size[a] = 3;
         continue;
       }
-      origin_[a] = std::floor(std::max(bounds.lower[a], lowest_[a]));
-      view_.size[a] = std::max(0, static_cast<int>(std::min(bounds.upper[a], highest_[a]) - origin_[a])) + 3;
+      origin_[a] = std::floor(std::max(bounds.lower[a], lowest_[a]) * scale_[a]);
+      view_.size[a] = std::max(0, static_cast<int>(std::min(bounds.upper[a], highest_[a]) * scale_[a] - origin_[a])) + 3;
     }
   }
 
@@ -101,7 +106,7 @@ class CellGrid {
   }
   /// 1-based cell coordinate along an axis, clamped to the grid.
   int coordinate(std::size_t axis, Real value) const {
-    const int c = static_cast<int>(std::clamp((value - origin_[axis]) * scale_[axis], Real(0), Real(1e8))) + 1;
+    const int c = static_cast<int>(std::clamp((value - corner_[axis]) * scale_[axis] - origin_[axis], Real(0), Real(1e8))) + 1;
     return std::clamp(c, 1, view_.size[axis] - 2);
   }
 
@@ -159,10 +164,11 @@ class CellGrid {
 
  private:
   GridView<Real> view_;
-  bool one_cell_ = false;
-  std::array<Real, 3> origin_{};
+  std::array<Real, 3> corner_{};  ///< what cells are counted from: the domain's corner where periodic, else the origin
+  std::array<Real, 3> origin_{};  ///< the first cell of the bounds, counted from there
   std::array<Real, 3> scale_{Real(1), Real(1), Real(1)};  ///< cells per support radius, <= 1
   std::array<Real, 3> lowest_{}, highest_{};              ///< what the grid covers at most, in support radii
+  bool one_cell_ = false;
   AlignedArray<std::uint32_t> start_;
   AlignedArray<std::uint32_t> cell_of_;
   std::vector<AlignedArray<std::uint32_t>> histograms_;

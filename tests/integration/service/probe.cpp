@@ -98,14 +98,14 @@ template <class T>
 bool Probe::next(Reader<T>& reader, const std::function<bool(const T&)>& use) {
   auto wait_set = need(transport::WaitSet::create(participant_));
   if (!wait_set.attach(reader, 0)) return false;
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + test::kPatience;
   while (std::chrono::steady_clock::now() < end) {
     bool found = false;
     const auto look = [&](const transport::Sample<T>& sample) { found = sample.data != nullptr && use(*sample.data); };
     const auto taken = reader.take(look, 1);
     if (found) return true;
     if (!taken) return false;
-    if (*taken == 0 && !wait_set.wait(kPatience)) return false;
+    if (*taken == 0 && !wait_set.wait(test::kPatience)) return false;
   }
   return false;
 }
@@ -120,7 +120,7 @@ bleed_v1_Reply Probe::askAs(std::uint64_t seq, const bleed_v1_RequestBody& body)
   request.body = body;
   auto wait_set = need(transport::WaitSet::create(participant_));
   EXPECT_TRUE(wait_set.attach(replies_, 0).ok());
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + test::kPatience;
   while (std::chrono::steady_clock::now() < end) {
     EXPECT_TRUE(requests_.write(request).ok());
     const auto resend_at = std::chrono::steady_clock::now() + kResend;
@@ -168,7 +168,8 @@ StatsHead Probe::stats(const std::function<bool(const StatsHead&)>& fits) {
             stats.state_hash,
             stats.wounds._length,
             stats.instruments._length,
-            stats.frames_overwritten};
+            stats.frames_overwritten,
+            stats.kinetic_energy_j};
     return !fits || fits(head);
   })) << "no such frame_stats";
   return head;
@@ -177,7 +178,14 @@ StatsHead Probe::stats(const std::function<bool(const StatsHead&)>& fits) {
 StatusHead Probe::status(const std::function<bool(const StatusHead&)>& fits) {
   StatusHead head;
   EXPECT_TRUE(next<bleed_v1_Status>(statuses_, [&](const bleed_v1_Status& status) {
-    head = {transport::toUuid(status.session), status.session_name, status.state, status.step, status.heartbeat, status.pid, {}};
+    head = {transport::toUuid(status.session),
+            status.session_name,
+            status.state,
+            status.step,
+            status.heartbeat,
+            status.pid,
+            {},
+            status.text};
     for (std::uint32_t i = 0; i < status.counters._length; ++i) {
       head.counters.emplace_back(status.counters._buffer[i].name, status.counters._buffer[i].value);
     }
@@ -193,6 +201,18 @@ bleed_v1_Journal Probe::journal(const std::function<bool(const bleed_v1_Journal&
     return fits(entry);
   })) << "no such journal entry";
   return out;
+}
+
+SceneHead Probe::scene(const std::function<bool(const SceneHead&)>& fits) {
+  SceneHead head;
+  EXPECT_TRUE(next<bleed_v1_Scene>(scenes_, [&](const bleed_v1_Scene& scene) {
+    head = {scene.scene_name, scene.epoch, scene.scene_text, scene.loaded_text, {}, {}};
+    for (std::uint32_t i = 0; i < scene.effects._length; ++i) head.effects.emplace_back(scene.effects._buffer[i]);
+    for (std::uint32_t i = 0; i < scene.known_effects._length; ++i)
+      head.known_effects.emplace_back(scene.known_effects._buffer[i]);
+    return !fits || fits(head);
+  })) << "no such scene";
+  return head;
 }
 
 std::string Probe::sceneName() {

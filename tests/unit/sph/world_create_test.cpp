@@ -195,26 +195,35 @@ TEST(Effects, TheCatalogueNamesEachWithItsSource) {
     EXPECT_FALSE(effect.source.empty());
     EXPECT_FALSE(effect.deviation.empty());
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "applied_force"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "surface_tension", "core_radius", "repulsion",
+                                               "adhesion", "applied_force"}));
 }
 
 TEST(Effects, TheirSettingsEnableThem) {
   WorldDescription description;
   for (const EffectInfo& effect : effectCatalog()) EXPECT_FALSE(effectEnabled(description, effect.name)) << effect.name;
-  const auto onlyEnabled = [&](std::string_view name) {
+  const auto only_enabled = [&](std::string_view name) {
     for (const EffectInfo& effect : effectCatalog()) {
       EXPECT_EQ(effectEnabled(description, effect.name), effect.name == name) << effect.name;
     }
     description.effects = {};
   };
   description.effects.gravity.emplace();
-  onlyEnabled("gravity");
+  only_enabled("gravity");
   description.effects.pressure.emplace();
-  onlyEnabled("pressure");
+  only_enabled("pressure");
   description.effects.viscosity.emplace();
-  onlyEnabled("viscosity");
+  only_enabled("viscosity");
+  description.effects.core_radius.emplace();
+  only_enabled("core_radius");
+  description.effects.repulsion.emplace();
+  only_enabled("repulsion");
   description.effects.applied_force.emplace();
-  onlyEnabled("applied_force");
+  only_enabled("applied_force");
+  description.effects.surface_tension.emplace();
+  only_enabled("surface_tension");
+  description.effects.adhesion.emplace();
+  only_enabled("adhesion");
   EXPECT_FALSE(effectEnabled(description, "surface_tension"));
   EXPECT_FALSE(effectEnabled(description, ""));
 }

@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/scenes.h"
+#include "tests/unit/sph/pass_rig.h"
 
 namespace bleedsim::sph {
 namespace {
 
 struct Case {
-  const char* name;
+  std::string name;
   std::function<WorldDescription()> describe;
 };
 
@@ -36,30 +37,40 @@ WorldDescription bleeding() {
 }
 
 const std::vector<Case>& cases() {
-  static const std::vector<Case> all{
-      {"FreeBlock",
-       [] {
-         return test::freeBlock({11, 9, 10}, 0.3);
-       }},
-      {"Periodic",
-       [] {
-         return test::periodicBox({10, 8, 9}, 0.3);
-       }},
-      {"Harmonic",
-       [] {
-         return harmonic(test::freeBlock({12, 9, 9}, 0.3));
-       }},
-      {"HarmonicPeriodic",
-       [] {
-         return harmonic(test::periodicBox({12, 8, 8}, 0.3));
-       }},
-      {"ClosedBox",
-       [] {
-         return test::closedBox({9, 8, 10}, 0.2);
-       }},
-      {"Bleeding", bleeding},
-  };
-  return all;
+  static const std::vector<Case> kAll = [] {
+    std::vector<Case> scenes{
+        {"FreeBlock",
+         [] {
+           return test::freeBlock({11, 9, 10}, 0.3);
+         }},
+        {"Periodic",
+         [] {
+           return test::periodicBox({10, 8, 9}, 0.3);
+         }},
+        {"Harmonic",
+         [] {
+           return harmonic(test::freeBlock({12, 9, 9}, 0.3));
+         }},
+        {"HarmonicPeriodic",
+         [] {
+           return harmonic(test::periodicBox({12, 8, 8}, 0.3));
+         }},
+        {"ClosedBox",
+         [] {
+           return test::closedBox({9, 8, 10}, 0.2);
+         }},
+        {"Bleeding", bleeding},
+    };
+    for (const PairSet& set : allPairSets()) {
+      scenes.push_back({nameOf(set), [set] {
+                          WorldDescription description = withPairSet(test::freeBlock({9, 8, 8}, 0.2), set);
+                          description.fluid_blocks.front().velocity = {0.1, -0.2, 0.05};
+                          return description;
+                        }});
+    }
+    return scenes;
+  }();
+  return kAll;
 }
 
 /// Frame storage sorted by id: targets may sort particles at a cell's border differently.
@@ -88,10 +99,10 @@ Differences compare(const FrameBuffer& a, const FrameBuffer& b) {
     EXPECT_EQ(a.id[i], b.id[j]);
     apart.position = std::max(apart.position, (test::positionOf(a, i) - test::positionOf(b, j)).norm());
     apart.velocity = std::max(apart.velocity, (test::velocityOf(a, i) - test::velocityOf(b, j)).norm());
-    apart.density = std::max(apart.density, std::abs(double{a.density[i]} - double{b.density[j]}));
+    apart.density = std::max(apart.density, std::abs(static_cast<double>(a.density[i]) - static_cast<double>(b.density[j])));
     largest.position = std::max(largest.position, test::positionOf(a, i).norm());
     largest.velocity = std::max(largest.velocity, test::velocityOf(a, i).norm());
-    largest.density = std::max(largest.density, double{a.density[i]});
+    largest.density = std::max(largest.density, static_cast<double>(a.density[i]));
   }
   return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density};
 }
