@@ -39,6 +39,7 @@ class TemporaryFile {
 TEST(LoadScene, EveryShippedSceneIsValidAndNamedLikeItsFile) {
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator{kScenes}) {
+    if (!entry.is_regular_file()) continue;
     ++scenes;
     const Result<SceneDescription> scene = loadScene(entry.path());
     ASSERT_TRUE(scene.ok()) << scene.status().message();
@@ -49,6 +50,18 @@ TEST(LoadScene, EveryShippedSceneIsValidAndNamedLikeItsFile) {
     EXPECT_NE(scene->attributes & sph::kFrameVelocity, 0u) << entry.path();
   }
   EXPECT_GE(scenes, 4);
+}
+
+TEST(LoadScene, EverySceneOfThePaperIsValidAndNamedLikeItsFile) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator{kScenes / "paper"}) {
+    ++scenes;
+    const Result<SceneDescription> scene = loadScene(entry.path());
+    ASSERT_TRUE(scene.ok()) << scene.status().message();
+    EXPECT_EQ(scene->name, "paper_" + entry.path().stem().string());
+    EXPECT_FALSE(scene->description.empty());
+  }
+  EXPECT_GE(scenes, 6);
 }
 
 TEST(LoadScene, RoundWoundLeavesRoomForAFurtherWound) {

@@ -101,7 +101,8 @@ TEST(NormalizedText, ParsesToTheSameDescription) {
 }
 
 TEST(NormalizedText, OfEveryShippedSceneParsesToTheSameDescription) {
-  for (const auto& entry : std::filesystem::directory_iterator{BLEEDSIM_SCENE_DIR}) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator{BLEEDSIM_SCENE_DIR}) {
+    if (!entry.is_regular_file()) continue;
     SCOPED_TRACE(entry.path().string());
     const Result<SceneDescription> scene = loadScene(entry.path());
     ASSERT_TRUE(scene.ok()) << scene.status().message();

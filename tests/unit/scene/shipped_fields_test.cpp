@@ -24,7 +24,8 @@ void collectFields(const google::protobuf::Descriptor& type, std::set<std::strin
 
 std::string shippedText() {
   std::string text;
-  for (const auto& entry : std::filesystem::directory_iterator{BLEEDSIM_SCENE_DIR}) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator{BLEEDSIM_SCENE_DIR}) {
+    if (!entry.is_regular_file()) continue;
     std::ifstream file{entry.path()};
     text.append(std::istreambuf_iterator<char>{file}, {});
   }
