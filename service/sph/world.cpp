@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "service/sph/effects/effect_list.h"
+#include "service/sph/effects/literal_list.h"
 #include "service/sph/seeding.h"
 #include "service/sph/world_core.h"
 #include "service/sph/world_setup.h"
@@ -67,7 +68,12 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   if (!isFiniteNotNegative(d.compressibility.max_fall_or_depth)) {
     return invalid("the largest fall or depth must be finite and not negative");
   }
+  if (d.kernel != KernelType::wendland_c2 && d.kernel != KernelType::cubic_spline) {
+    return invalid("the sound model's kernel must be Wendland C2 or the cubic spline");
+  }
   if (Status status = checkEffects(d.effects); !status.ok()) return status;
+  if (Status status = checkLiteral(d); !status.ok()) return status;
+  if (Status status = checkPlanar(d); !status.ok()) return status;
   const double h = d.supportRadius();
   const double c0 = speedOfSound(d);
   if (!(c0 > 0.0) || !std::isfinite(c0)) return invalid("the speed of sound must be greater than 0 m/s: set a design speed");
@@ -104,7 +110,7 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
 template <class Real>
 Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptions& options, SimdTarget target,
                                      const WorldTables<Real>& tables) {
-  const SmoothingKernel kernel{d.kernel, d.supportRadius()};
+  const SmoothingKernel kernel = d.densityKernel();
   const RestLattice lattice = calibrateRestLattice(kernel, d.spacing, d.rest_density);
   Result<TissueField<Real>> tissue = TissueField<Real>::create(
       d.tissue, {.kernel = kernel, .spacing = d.spacing, .particle_mass = lattice.particle_mass, .rest_density = d.rest_density});
@@ -117,6 +123,7 @@ Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptio
 }  // namespace
 
 double speedOfSound(const WorldDescription& d) {
+  if (d.model == Model::literal && d.literal.stiffness) return std::sqrt(*d.literal.stiffness);
   const double g = d.effects.gravity ? d.effects.gravity->acceleration.norm() : 0.0;
   double speed =
       std::max(d.compressibility.design_speed, std::sqrt(2.0 * g * std::max(0.0, d.compressibility.max_fall_or_depth)));
@@ -165,7 +172,10 @@ std::string_view counterName(Counter counter) { return kCounterNames[static_cast
 std::span<const EffectInfo> effectCatalog() {
   static constexpr auto kCatalog = [] {
     std::array<EffectInfo, kEffects.size()> catalog{};
-    for (std::size_t i = 0; i < kEffects.size(); ++i) catalog[i] = kEffects[i].info;
+    for (std::size_t i = 0; i < kEffects.size(); ++i) {
+      catalog[i] = kEffects[i].info;
+      catalog[i].literal = literalText(catalog[i].name);
+    }
     return catalog;
   }();
   return kCatalog;

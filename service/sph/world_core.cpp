@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "service/sph/flush_to_zero.h"
+#include "service/sph/integrate/layer_lock.h"
 #include "service/sph/view.h"
 #include "service/sph/world_setup.h"
 
@@ -56,6 +57,11 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     const Vec3& g = description.effects.gravity->acceleration;
     gravity_ = {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(g.z())};
   }
+  if (description.planar) gravity_[2] = Real(0);
+  if (description.model == Model::literal) {
+    opening_ = 1.0;
+    literal_.emplace(description, lattice, speed_of_sound_, viscosityVaries(description), target);
+  }
   if (mayNeedImplicitViscosity(description, speed_of_sound_)) {
     const ViscositySettings& viscosity = *description.effects.viscosity;
     const bool varies = viscosityVaries(description);
@@ -76,16 +82,20 @@ Status WorldCore<Real>::populate() {
   for (const FluidBlock& block : description_.fluid_blocks) {
     const double viscosity =
         block.viscosity.value_or(description_.effects.viscosity ? description_.effects.viscosity->viscosity : 0.0);
+    const double layer = block.lower.z() + 0.5 * description_.spacing;  // of a planar world: jitter leaves it
     seedBlock(block, description_.spacing, jitter, [&](const Vec3& position) {
       const std::uint32_t i = count_++;
       particles_.x[i] = static_cast<Real>(position.x() / h_);
       particles_.y[i] = static_cast<Real>(position.y() / h_);
-      particles_.z[i] = static_cast<Real>(position.z() / h_);
+      particles_.z[i] = static_cast<Real>((description_.planar ? layer : position.z()) / h_);
       particles_.vx[i] = static_cast<Real>(block.velocity.x());
       particles_.vy[i] = static_cast<Real>(block.velocity.y());
       particles_.vz[i] = static_cast<Real>(block.velocity.z());
       particles_.id[i] = next_id_++;
       if (!particles_.inverse_viscosity.empty()) particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity);
+      if (!particles_.platelet.empty()) {
+        particles_.platelet[i] = static_cast<Real>(block.platelet.value_or(description_.effects.platelets->fresh));
+      }
     });
   }
   injected_ = count_;
@@ -153,6 +163,7 @@ void WorldCore<Real>::emit(double dt) {
     if (!particles_.inverse_viscosity.empty()) {
       particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / description_.effects.viscosity->viscosity);
     }
+    if (!particles_.platelet.empty()) particles_.platelet[i] = static_cast<Real>(description_.effects.platelets->fresh);
     std::fill_n(passes_.acceleration() + std::size_t{i} * 4, 4, Real(0));
     return true;
   });
@@ -164,8 +175,8 @@ template <class Real>
 void WorldCore<Real>::move(double dt) {
   executor_->run(shares_, [&](int share) {
     drift_results_[static_cast<std::size_t>(share)] =
-        kickAndDrift(particles_, passes_.acceleration(), static_cast<Real>(0.5 * dt), static_cast<Real>(dt / h_), h_, domain_,
-                     wounds_, ShareRange{count_, share, shares_}, grid_.cells());
+        kickAndDrift(particles_, passes_.acceleration(), static_cast<Real>(opening_ * dt), static_cast<Real>(dt / h_), h_,
+                     domain_, wounds_, ShareRange{count_, share, shares_}, grid_.cells());
   });
   Bounds<Real> bounds;
   for (int share = 0; share < shares_; ++share) {
@@ -202,7 +213,11 @@ void WorldCore<Real>::computeAccelerations() {
   clock_.lap(Stage::tissue);
   counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
   clock_.lap(Stage::density);
-  passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
+  if (literal_) {
+    literal_->add(grid_, particles_, passes_, count_, shares_, *executor_);
+  } else {
+    passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
+  }
   clock_.lap(Stage::force);
   if (solving_viscosity_) implicit_viscosity_->clearDrag(count_);
   walls_.addForces(particles_, passes_, shares_, *executor_, solving_viscosity_ ? implicit_viscosity_->drag() : nullptr);
@@ -211,14 +226,16 @@ void WorldCore<Real>::computeAccelerations() {
     counter(Counter::force_expired) += events.expired;
     counter(Counter::force_without_fluid) += events.without_fluid;
   }
+  if (description_.planar) lockLayer(passes_.acceleration(), count_, shares_, *executor_);
   clock_.lap(Stage::body);
 }
 
 template <class Real>
 void WorldCore<Real>::finishStep(double dt) {
   executor_->run(shares_, [&](int share) {
-    kick_results_[static_cast<std::size_t>(share)] = closingKick(
-        particles_, passes_.acceleration(), gravity_, static_cast<Real>(0.5 * dt), caps_, ShareRange{count_, share, shares_});
+    kick_results_[static_cast<std::size_t>(share)] =
+        closingKick(particles_, passes_.acceleration(), gravity_, static_cast<Real>((1.0 - opening_) * dt), caps_,
+                    ShareRange{count_, share, shares_});
   });
   KickResult<Real>& total = kick_results_[0];
   for (int share = 1; share < shares_; ++share) {
@@ -232,6 +249,7 @@ void WorldCore<Real>::finishStep(double dt) {
   faulted_ = !total.finite;
   if (faulted_) return;
   if (solving_viscosity_ && dt > 0.0) solveViscosity(dt);
+  if (literal_) literal_->diffuse(particles_, passes_, static_cast<Real>(dt), count_, shares_, *executor_);
   counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
   counter(Counter::speed_clamped) += total.speed_clamped;
   counter(Counter::acceleration_clamped) += total.acceleration_clamped;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "service/sph/effects/applied_force.h"
+#include "service/sph/effects/literal_forces.h"
 #include "service/sph/effects/implicit_viscosity.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
@@ -80,6 +81,7 @@ class WorldCore final : public World {
   MotionCaps<Real> caps_;
   std::array<Real, 3> gravity_{};
   TimeStepLimits limits_;
+  double opening_ = 0.5;  // part of the kick before the drift: a half, or symplectic Euler's whole
 
   std::unique_ptr<Executor> executor_;
   int shares_ = 1;
@@ -89,6 +91,7 @@ class WorldCore final : public World {
   WallEffects<Real> walls_;
   WoundSet wounds_;
   std::optional<AppliedForce<Real>> applied_force_;
+  std::optional<LiteralForces<Real>> literal_;
   std::optional<ImplicitViscosity<Real>> implicit_viscosity_;
   bool solving_viscosity_ = false;  // implicitly, in this step
   int viscosity_iterations_ = 0;
