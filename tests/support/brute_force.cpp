@@ -36,7 +36,7 @@ Vec3 repulsionOf(const sph::WorldDescription& d, double c0, const Vec3& offset, 
 }  // namespace
 
 OracleFields bruteForce(const sph::WorldDescription& d, sph::PairSet set, const OracleParticles& particles) {
-  const sph::SmoothingKernel kernel{d.kernel, d.supportRadius()};
+  const sph::SmoothingKernel kernel = d.densityKernel();
   const sph::RestLattice lattice = sph::calibrateRestLattice(kernel, d.spacing, d.rest_density);
   const double mass = lattice.particle_mass;
   const double c0 = sph::speedOfSound(d);
