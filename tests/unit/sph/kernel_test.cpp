@@ -1,4 +1,6 @@
 // The kernels' closed forms in space and in the plane: norms, derivatives, Laplacians, and what the paper claims of them.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -77,15 +79,17 @@ TEST_P(KernelTest, fallsWithDistanceAndEndsAtTheSupport) {
   }
 }
 
+std::string nameOf(const testing::TestParamInfo<Case>& tested) {
+  constexpr std::array<const char*, 5> kNames{"WendlandC2", "CubicSpline", "Poly6", "Spiky", "Viscosity"};
+  return std::string{kNames[static_cast<std::size_t>(std::get<0>(tested.param))]} +
+         (std::get<1>(tested.param) ? "InThePlane" : "InSpace");
+}
+
 INSTANTIATE_TEST_SUITE_P(All, KernelTest,
                          testing::Combine(testing::Values(KernelType::wendland_c2, KernelType::cubic_spline, KernelType::poly6,
                                                           KernelType::spiky, KernelType::viscosity),
                                           testing::Bool()),
-                         [](const testing::TestParamInfo<Case>& tested) {
-                           constexpr const char* kNames[] = {"WendlandC2", "CubicSpline", "Poly6", "Spiky", "Viscosity"};
-                           return std::string{kNames[static_cast<int>(std::get<0>(tested.param))]} +
-                                  (std::get<1>(tested.param) ? "InThePlane" : "InSpace");
-                         });
+                         nameOf);
 
 // The paper's own forms in space. Equal to rounding.
 TEST(PaperKernel, isThePrintedForm) {

@@ -135,9 +135,9 @@ struct TwoParticles {
   double density;
 };
 
-// (17)(31): dense particles (k rho0 below their density) part, sparse ones attract, because p is not clamped. Two particles alone
-// are sparse; a rest density below theirs makes them dense.
-TEST(LiteralPair, PressureRepelsWhereDenseAndAttractsWhereSparse) {
+// (16), (17) and (31) with its sign mended: dense particles part, sparse ones attract, because p is not clamped. Two particles
+// alone are sparse.
+TEST(LiteralPair, PressureAttractsWhereSparse) {
   const WorldDescription description =
       literal(test::freeBlock({2, 1, 1}), {.pressure = PressureTerm::symmetric});
   const double distance = 0.0004;
@@ -149,8 +149,9 @@ TEST(LiteralPair, PressureRepelsWhereDenseAndAttractsWhereSparse) {
     const double c0 = speedOfSound(changed);
     const double pressure = c0 * c0 * (two.density - changed.rest_density);
     const SmoothingKernel spiky{KernelType::spiky, changed.supportRadius()};
-    // Equal densities: (16) and (17) are the same.
-    const double expected = two.mass * 2.0 * pressure / (two.density * two.density) * spiky.slope(distance);
+    // Equal densities: 2 p/rho^2 of (16), and half of it of (17).
+    const double times = form == PressureForm::symmetric ? 1.0 : 2.0;
+    const double expected = two.mass * times * pressure / (two.density * two.density) * spiky.slope(distance);
     EXPECT_NEAR(rig.acceleration()[0].dot(kAlong), expected, 1e-9 * std::abs(expected));
     EXPECT_LT(pressure, 0.0);
     EXPECT_GT(rig.acceleration()[0].dot(kAlong), 0.0) << "sparse particles attract as printed";
@@ -158,17 +159,18 @@ TEST(LiteralPair, PressureRepelsWhereDenseAndAttractsWhereSparse) {
   }
 }
 
-TEST(LiteralPair, CompressedFluidIsPushedApart) {
-  WorldDescription description = literal(test::freeBlock({7, 7, 7}), {.pressure = PressureTerm::symmetric});
-  OracleParticles particles = stirred(description);
-  for (Vec3& position : particles.position) position *= 0.9;
-  const PassRig<double> rig{description, SimdTarget::scalar, particles};
-  // The force on the middle of each face's second layer, which is dense and feels the denser inside, points outward.
-  double outward = 0.0;
-  for (std::size_t i = 0; i < particles.position.size(); ++i) {
-    if (rig.density()[i] > description.rest_density) outward += rig.acceleration()[i].dot(particles.position[i]);
+// Particles on one line closer than the lattice's, so many that the end ones are dense: each end is pushed outward.
+TEST(LiteralPair, PressureRepelsWhereDense) {
+  const WorldDescription description = literal(test::freeBlock({2, 1, 1}), {.pressure = PressureTerm::symmetric});
+  OracleParticles particles;
+  for (int k = 0; k < 60; ++k) {
+    particles.position.push_back({1e-5 * k, 0.0, 0.0});
+    particles.velocity.push_back(Vec3::Zero());
   }
-  EXPECT_GT(outward, 0.0);
+  const PassRig<double> rig{description, SimdTarget::scalar, particles};
+  ASSERT_GT(rig.density().front(), description.rest_density);
+  EXPECT_LT(rig.acceleration().front().x(), 0.0);
+  EXPECT_GT(rig.acceleration().back().x(), 0.0);
 }
 
 TEST(LiteralPair, ViscosityIsTheParticlesOwn) {

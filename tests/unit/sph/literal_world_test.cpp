@@ -150,8 +150,8 @@ TEST(Planar, RestLatticeHasTheRestDensityAndStaysWhereItIs) {
     description.domain.periodic = {true, true, false};
     description.model = model;
     const auto world = test::makeWorld(description);
-    // A layer of thickness dx holds rho0 dx^3 a particle but for the lattice sum's 2 %.
-    EXPECT_NEAR(world->particleMass() * 1e9 / test::kRestDensity, 1.0, 0.03);
+    // A layer of thickness dx holds rho0 dx^3 a particle but for the lattice sum, which is 3.8 % high for Wendland at h = 2 dx.
+    EXPECT_NEAR(world->particleMass() * 1e9 / test::kRestDensity, 1.0, 0.05);
     for (const float density : test::frameOf(*world).density) EXPECT_NEAR(density, test::kRestDensity, 1e-4 * test::kRestDensity);
     const Vec3 before = test::positionOf(test::frameOf(*world), 0);
     step(*world, 50);
@@ -205,7 +205,7 @@ TEST(Planar, RefusesWhatHasThreeDimensions) {
     change(description);
     EXPECT_EQ(refusalOf(description, part), code);
   };
-  expect(StatusCode::unsupported, "tissue", [](WorldDescription& d) { d.tissue.push_back({.name = "plane"}); });
+  expect(StatusCode::unsupported, "tissue", [](WorldDescription& d) { d.tissue.push_back({.name = "plane", .shape = PlaneShape{}}); });
   expect(StatusCode::unsupported, "wounds", [](WorldDescription& d) { d.wounds.push_back(test::discWound(0.002, 1e-6)); });
   expect(StatusCode::unsupported, "surface tension", [](WorldDescription& d) { d.effects.surface_tension.emplace(); });
   expect(StatusCode::invalid_argument, "one particle high", [](WorldDescription& d) { d.fluid_blocks[0].upper.z() = 0.002; });
