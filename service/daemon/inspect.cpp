@@ -11,6 +11,7 @@ void printEffects(const scene::SceneDescription* description) {
     fmt::print("{}{:<14} {}\n", state, effect.name, effect.equation);
     if (!effect.source.empty()) fmt::print("{:>21}source: {}\n", "", effect.source);
     if (!effect.deviation.empty()) fmt::print("{:>21}deviation: {}\n", "", effect.deviation);
+    if (!effect.literal.empty()) fmt::print("{:>21}literal: {}\n", "", effect.literal);
   }
 }
 

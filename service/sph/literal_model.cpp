@@ -56,8 +56,7 @@ LiteralSet literalSet(const WorldDescription& description) {
   const EffectSettings& effects = description.effects;
   LiteralSet set;
   if (effects.pressure) {
-    set.pressure =
-        description.literal.pressure == PressureForm::symmetric ? PressureTerm::symmetric : PressureTerm::variational;
+    set.pressure = description.literal.pressure == PressureForm::symmetric ? PressureTerm::symmetric : PressureTerm::variational;
   }
   set.tension = effects.surface_tension.has_value();
   set.viscosity = effects.viscosity.has_value();

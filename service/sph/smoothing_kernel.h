@@ -94,7 +94,8 @@ struct SmoothingKernel {
           return {q * q / 4.0 - q * q * q / 9.0 - std::log(q) / 6.0 - 5.0 / 36.0, q / 2.0 - q * q / 3.0 - 1.0 / (6.0 * q),
                   0.5 - 2.0 * q / 3.0 + 1.0 / (6.0 * q * q)};
         }
-        return {-0.5 * q * q * q + q * q + 0.5 / q - 1.0, -1.5 * q * q + 2.0 * q - 0.5 / (q * q), 2.0 - 3.0 * q + 1.0 / (q * q * q)};
+        return {-0.5 * q * q * q + q * q + 0.5 / q - 1.0, -1.5 * q * q + 2.0 * q - 0.5 / (q * q),
+                2.0 - 3.0 * q + 1.0 / (q * q * q)};
       case KernelType::wendland_c2:
         break;
     }

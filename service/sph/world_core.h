@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "service/sph/effects/applied_force.h"
-#include "service/sph/effects/literal_forces.h"
 #include "service/sph/effects/implicit_viscosity.h"
+#include "service/sph/effects/literal_forces.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"

@@ -152,9 +152,7 @@ inline SweepChoice sweepChoice(const WorldDescription& description) {
 inline PairLayout pairLayout(const WorldDescription& description) {
   if (description.model == Model::literal) {
     const LiteralSet set = literalSet(description);
-    return {.set = {.pressure = set.pressure},
-            .tissue = !description.tissue.empty(),
-            .least_groups = literalRecordGroups(set)};
+    return {.set = {.pressure = set.pressure}, .tissue = !description.tissue.empty(), .least_groups = literalRecordGroups(set)};
   }
   return {pairSet(description), !description.tissue.empty(), description.effects.surface_tension.has_value()};
 }

@@ -9,7 +9,8 @@ namespace bleedsim::sph {
 
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kLiteralTexts{{
     {"gravity", "F of (9)"},
-    {"pressure", "(17) or (16), p = k (rho - rho0) of (19) unclamped, density (20) by poly6 (29), gradient by spiky (31), its sign mended"},
+    {"pressure",
+     "(17) or (16), p = k (rho - rho0) of (19) unclamped, density (20) by poly6 (29), gradient by spiky (31), its sign mended"},
     {"viscosity", "(25) with the particle's own mu and the Laplacian (33)"},
     {"surface_tension", "(21)-(23): f = -eps lap C n/|n| with spiky, where |n| h is above a cut-off"},
     {"platelets", "(26) mu = b exp(-a P); (27) dP/dt = k lap P with the Laplacian (33): it never clots a uniform P"},

@@ -28,8 +28,7 @@ class LiteralPlatelets {
       : scale_{L::set(job.platelet_scale)}, own_{L::set(record[kRecordPlatelet])} {}
 
   HWY_INLINE void pair(const Pair<L>& p, const PaperWeights<L>& w, PairSums<L>& sums) const {
-    sums.rate =
-        L::mulAdd(scale_ * (w.complement * p.field[kRecordInverseDensity]), p.field[kRecordPlatelet] - own_, sums.rate);
+    sums.rate = L::mulAdd(scale_ * (w.complement * p.field[kRecordInverseDensity]), p.field[kRecordPlatelet] - own_, sums.rate);
   }
 
  private:

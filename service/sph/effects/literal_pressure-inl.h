@@ -7,8 +7,8 @@
 // terms: p Pa, negative where rho < rho0; k m^2/s^2; rho kg/m^3; m kg; a m/s^2. The record carries K p/rho^2, or K p/2 for (17),
 // with K = m x gradient norm/h^4.
 // Deviation from the paper: the sign of (31), without which pressure attracts. m is calibrated (literal_model.h).
-// Known of it: the sum of grad W vanishes in the bulk, so the own p_i adds nothing and (17) is half of -grad p/rho, (16) the whole:
-// with (17) a column stands under twice the compression, and sound travels at sqrt(k/2).
+// Known of it: the sum of grad W vanishes in the bulk, so the own p_i adds nothing and (17) is half of -grad p/rho, (16) the
+// whole: with (17) a column stands under twice the compression, and sound travels at sqrt(k/2).
 #if defined(BLEEDSIM_SPH_EFFECTS_LITERAL_PRESSURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BLEEDSIM_SPH_EFFECTS_LITERAL_PRESSURE_INL_H_
 #undef BLEEDSIM_SPH_EFFECTS_LITERAL_PRESSURE_INL_H_

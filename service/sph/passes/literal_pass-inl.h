@@ -47,7 +47,11 @@ class LiteralBody {
       std::max({Pressure::kGroups, Tension::kGroups, Viscosity::kGroups, Platelets::kGroups, Repulsion::kGroups});
 
   LiteralBody(const Job& job, std::uint32_t, const Real* record)
-      : pressure_{job, record}, tension_{job, record}, viscosity_{job, record}, platelets_{job, record}, repulsion_{job, record} {}
+      : pressure_{job, record},
+        tension_{job, record},
+        viscosity_{job, record},
+        platelets_{job, record},
+        repulsion_{job, record} {}
 
   HWY_INLINE void pair(const Pair<L>& p) {
     PaperWeights<L> w{p.gradient, complementOf<L>(p.q2)};

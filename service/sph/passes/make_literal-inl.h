@@ -33,7 +33,8 @@ constexpr LiteralTable<typename L::Scalar> makeLiteralTable() {
                            {&DensityPass<L, Poly6, kPeriodic, true, false>::run, nullptr}}};
   table.force = []<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
     return std::array<LiteralFunction<Real>, LiteralSet::kCount>{literalPassAt<L, kPeriodic, kIndex>()...};
-  }(std::make_index_sequence<LiteralSet::kCount>{});
+  }
+  (std::make_index_sequence<LiteralSet::kCount>{});
   return table;
 }
 

@@ -189,7 +189,8 @@ class PairPasses {
   void moveDensity(std::size_t to, std::size_t from) { density_[to] = density_[from]; }
   /// Of the equation of state, Pa.
   Real pressureAt(Real density) const {
-    return std::max(constants_.pressure_floor, constants_.background + constants_.stiffness * (density - constants_.rest_density));
+    return std::max(constants_.pressure_floor,
+                    constants_.background + constants_.stiffness * (density - constants_.rest_density));
   }
 
  private:

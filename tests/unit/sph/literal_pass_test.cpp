@@ -138,8 +138,7 @@ struct TwoParticles {
 // (16), (17) and (31) with its sign mended: dense particles part, sparse ones attract, because p is not clamped. Two particles
 // alone are sparse.
 TEST(LiteralPair, PressureAttractsWhereSparse) {
-  const WorldDescription description =
-      literal(test::freeBlock({2, 1, 1}), {.pressure = PressureTerm::symmetric});
+  const WorldDescription description = literal(test::freeBlock({2, 1, 1}), {.pressure = PressureTerm::symmetric});
   const double distance = 0.0004;
   for (const PressureForm form : {PressureForm::symmetric, PressureForm::variational}) {
     WorldDescription changed = description;
@@ -194,12 +193,9 @@ TEST(LiteralPair, TensionIsTheColorFieldsForce) {
   const TwoParticles two{description, distance};
   const SmoothingKernel spiky{KernelType::spiky, description.supportRadius()};
   const double slope = two.mass / two.density * spiky.slope(distance);
-  const auto acceleration = [&] {
-    return PassRig<double>{description, SimdTarget::scalar, pairAt(distance)}.acceleration()[0];
-  };
+  const auto acceleration = [&] { return PassRig<double>{description, SimdTarget::scalar, pairAt(distance)}.acceleration()[0]; };
   // n points to the other particle; |n| is the slope's.
-  const Vec3 expected =
-      -description.literal.tension * two.mass / two.density * spiky.laplacian(distance) / two.density * kAlong;
+  const Vec3 expected = -description.literal.tension * two.mass / two.density * spiky.laplacian(distance) / two.density * kAlong;
   EXPECT_LE((acceleration() - expected).norm(), 1e-10 * expected.norm());
   description.literal.normal_cutoff = 0.999 * std::abs(slope) * description.supportRadius();
   EXPECT_GT(acceleration().norm(), 0.0);

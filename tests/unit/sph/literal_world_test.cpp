@@ -101,6 +101,22 @@ TEST(LiteralPlatelets, DiffusionThinsTheWhole) {
   EXPECT_LT(meanViscosity(*world), 0.95 * before);
 }
 
+// The model stands in a world with a wound and tissue: emission is exact to a particle, and its unclamped forces fault nothing.
+TEST(LiteralTissue, BleedsOnAPlane) {
+  for (const LiteralSet set : {kEverything, LiteralSet{PressureTerm::symmetric, false, true, false, false}}) {
+    const auto world = test::makeWorld(literal(test::woundOnPlane(0.003, 12e-6), set));
+    for (int k = 0; k < 1500; ++k) ASSERT_TRUE(world->step(kFree).ok());
+    const WorldStats stats = test::statsOf(*world);
+    EXPECT_GT(stats.particles, 300u);
+    EXPECT_EQ(stats.particles, stats.injected - stats.removed);
+    EXPECT_NEAR(stats.emitted_volume, stats.commanded_volume, 1e-9);
+    RecordProperty(nameOf(set) + "_clamped", std::to_string(stats.counters[static_cast<std::size_t>(Counter::speed_clamped)]));
+    RecordProperty(nameOf(set) + "_projected",
+                   std::to_string(stats.counters[static_cast<std::size_t>(Counter::tissue_projected)]));
+    RecordProperty(nameOf(set) + "_max_speed", std::to_string(stats.max_speed));
+  }
+}
+
 StatusCode refusalOf(const WorldDescription& description, std::string_view part) {
   const auto world = createWorld(description, {});
   EXPECT_FALSE(world.ok()) << part;
@@ -205,7 +221,8 @@ TEST(Planar, RefusesWhatHasThreeDimensions) {
     change(description);
     EXPECT_EQ(refusalOf(description, part), code);
   };
-  expect(StatusCode::unsupported, "tissue", [](WorldDescription& d) { d.tissue.push_back({.name = "plane", .shape = PlaneShape{}}); });
+  expect(StatusCode::unsupported, "tissue",
+         [](WorldDescription& d) { d.tissue.push_back({.name = "plane", .shape = PlaneShape{}}); });
   expect(StatusCode::unsupported, "wounds", [](WorldDescription& d) { d.wounds.push_back(test::discWound(0.002, 1e-6)); });
   expect(StatusCode::unsupported, "surface tension", [](WorldDescription& d) { d.effects.surface_tension.emplace(); });
   expect(StatusCode::invalid_argument, "one particle high", [](WorldDescription& d) { d.fluid_blocks[0].upper.z() = 0.002; });

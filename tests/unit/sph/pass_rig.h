@@ -21,8 +21,7 @@ template <class Real>
 class PassRig {
  public:
   /// `description` says which effects act; its blocks are not seeded. In double precision the target is the scalar twin.
-  PassRig(const WorldDescription& description, SimdTarget target, const test::OracleParticles& particles,
-          int shares = 1)
+  PassRig(const WorldDescription& description, SimdTarget target, const test::OracleParticles& particles, int shares = 1)
       : h_{description.supportRadius()},
         capacity_{static_cast<std::uint32_t>(particles.position.size())},
         shares_{shares},
