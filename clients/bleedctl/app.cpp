@@ -74,6 +74,7 @@ int runBleedctl(int argc, const char* const* argv) {
   addSessionCommands(app, context);
   addRecordingCommands(app, context);
   addWoundCommands(app, context);
+  addEffectCommands(app, context);
   addControlCommands(app, context);
   try {
     app.parse(argc, argv);

@@ -52,6 +52,7 @@ std::string checkFinite(const std::string& text);
 void addSessionCommands(CLI::App& app, Context& context);    // list, status, watch
 void addControlCommands(CLI::App& app, Context& context);    // pause, resume, reset, step, pace, load, shutdown
 void addWoundCommands(CLI::App& app, Context& context);      // wound add, move, set, remove; force
+void addEffectCommands(CLI::App& app, Context& context);     // effect list, on, off
 void addRecordingCommands(CLI::App& app, Context& context);  // record, info, export
 
 /// Parses, runs and returns the exit code.

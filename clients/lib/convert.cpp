@@ -104,7 +104,9 @@ SceneInfo fromWire(const bleed_v1_Scene& wire) {
   out.name = textOf(wire.scene_name);
   out.text = textOf(wire.scene_text);
   out.seed = wire.seed;
+  out.loaded_text = textOf(wire.loaded_text);
   for (const auto& effect : elements(wire.effects)) out.effects.push_back(textOf(effect));
+  for (const auto& effect : elements(wire.known_effects)) out.known_effects.push_back(textOf(effect));
   out.frame_id = textOf(wire.frame_id);
   out.length_unit = textOf(wire.length_unit);
   out.axes = textOf(wire.axes);

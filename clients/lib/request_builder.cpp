@@ -144,6 +144,22 @@ Result<RequestPointer> buildLoadScene(const std::string& text) {
   return out;
 }
 
+Result<RequestPointer> buildEffect(const std::string& name, bool enabled, const std::string& settings) {
+  RequestPointer out = make(bleed_v1_REQUEST_EFFECT);
+  bleed_v1_Effect& wire = out->wire.body._u.effect;
+  if (name.empty() || !copyText(name, wire.name)) {
+    return Status{StatusCode::invalid_argument,
+                  fmt::format("the name of an effect has {} bytes: 1 to {} are possible", name.size(), sizeof wire.name - 1)};
+  }
+  if (!copyText(settings, wire.settings)) {
+    return Status{StatusCode::invalid_argument,
+                  fmt::format("the settings have {} bytes: text of at most {} without zero bytes is possible", settings.size(),
+                              sizeof wire.settings - 1)};
+  }
+  wire.enabled = enabled;
+  return out;
+}
+
 RequestPointer buildPing(std::int64_t stamp_ns) {
   RequestPointer out = make(bleed_v1_REQUEST_PING);
   out->wire.body._u.ping.client_stamp_ns = stamp_ns;

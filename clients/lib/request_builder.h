@@ -14,6 +14,7 @@ RequestPointer buildStep(std::uint32_t count);
 RequestPointer buildPace(const Pace& pace);
 Result<RequestPointer> buildOutput(const OutputSpec& output);
 Result<RequestPointer> buildLoadScene(const std::string& text);
+Result<RequestPointer> buildEffect(const std::string& name, bool enabled, const std::string& settings);
 RequestPointer buildPing(std::int64_t stamp_ns);
 /// REQUEST_PAUSE, _RESUME, _RESET or _SHUTDOWN.
 RequestPointer buildPlain(std::uint32_t request);

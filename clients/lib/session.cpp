@@ -88,6 +88,9 @@ std::future<Reply> Session::step(std::uint32_t count) { return impl_->submit(bui
 std::future<Reply> Session::pace(const Pace& pace) { return impl_->submit(buildPace(pace)); }
 std::future<Reply> Session::output(const OutputSpec& output) { return impl_->submit(buildOutput(output)); }
 std::future<Reply> Session::loadScene(const std::string& text) { return impl_->submit(buildLoadScene(text)); }
+std::future<Reply> Session::setEffect(const std::string& name, bool enabled, const std::string& settings) {
+  return impl_->submit(buildEffect(name, enabled, settings));
+}
 std::future<Reply> Session::shutdown() { return impl_->submit(buildPlain(bleed_v1_REQUEST_SHUTDOWN)); }
 
 Result<std::chrono::nanoseconds> Session::ping(std::chrono::nanoseconds timeout) {

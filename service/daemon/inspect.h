@@ -5,8 +5,9 @@
 
 namespace bleedsim::daemon {
 
-/// --list-effects, to standard output. `description` may be null: then without the state in a scene.
-void printEffects(const scene::SceneDescription* description);
+/// --list-effects, to standard output, as a table or as one JSON array. `description` may be null: then without the state in a
+/// scene.
+void printEffects(const scene::SceneDescription* description, bool json);
 
 /// --check, to standard output: what the world of the scene is like.
 void printWorld(const LoadedScene& loaded);

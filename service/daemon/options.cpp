@@ -85,7 +85,10 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
                               ->check(CLI::Range(0.0, kMaxDuration))
                               ->type_name("SECONDS");
   app.add_flag("--check", options.check, "Check the scene, build its world and exit");
-  app.add_flag("--list-effects", options.list_effects, "List the effects of this build; with a scene, also their state in it");
+  auto* list = app.add_flag("--list-effects", options.list_effects,
+                            "List the effects of this build: equation, source, deviation from the paper; with a scene, also "
+                            "their state in it");
+  app.add_flag("--json", options.json, "List the effects as JSON")->needs(list);
 
   try {
     app.parse(argc, argv);

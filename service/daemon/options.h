@@ -23,6 +23,7 @@ struct Options {
   sph::WorldOptions world;
   bool check = false;
   bool list_effects = false;
+  bool json = false;  ///< of list_effects
 };
 
 /// The options, or the code to exit with once help, version or a usage error was printed.

@@ -50,7 +50,7 @@ ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory fac
 
 ExitCode runProgram(const Options& options, SignalWatch& signals) {
   if (!options.scene) {
-    printEffects(nullptr);
+    printEffects(nullptr, options.json);
     return ExitCode::ok;
   }
   Result<scene::SceneDescription> parsed = scene::loadScene(*options.scene);
@@ -59,7 +59,7 @@ ExitCode runProgram(const Options& options, SignalWatch& signals) {
     return ExitCode::usage;
   }
   if (options.list_effects) {
-    printEffects(&*parsed);
+    printEffects(&*parsed, options.json);
     return ExitCode::ok;
   }
   const SceneFactory factory = worldFactory(options.world);

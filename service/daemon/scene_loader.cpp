@@ -6,7 +6,17 @@
 namespace bleedsim::daemon {
 namespace {
 
+Result<LoadedScene> buildSwitched(const SceneJob& job, sph::WorldOptions options) {
+  Result<scene::SceneDescription> changed = scene::changeEffect(*job.known, job.effect->change);
+  if (!changed) return changed.status();
+  options.speed_of_sound = job.effect->speed_of_sound;
+  Result<std::unique_ptr<sph::World>> world = sph::createWorld(changed->world, options);
+  if (!world) return world.status();
+  return LoadedScene{std::make_shared<const scene::SceneDescription>(std::move(*changed)), std::move(*world), {}};
+}
+
 Result<LoadedScene> build(const SceneJob& job, const sph::WorldOptions& options) {
+  if (job.effect) return buildSwitched(job, options);
   std::shared_ptr<const scene::SceneDescription> description = job.known;
   if (!description) {
     Result<scene::SceneDescription> parsed = scene::parseScene(job.text);
@@ -43,6 +53,11 @@ void SceneLoader::start(SceneJob job) {
     }
     done_.notify();
   }};
+}
+
+void SceneLoader::retire(std::unique_ptr<sph::World> world) {
+  join();
+  thread_ = std::thread{[world = std::move(world)]() mutable { world.reset(); }};
 }
 
 std::optional<Result<LoadedScene>> SceneLoader::takeFinished() {

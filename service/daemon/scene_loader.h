@@ -10,6 +10,7 @@
 
 #include "service/daemon/frame_mailbox.h"
 #include "service/daemon/wakeup.h"
+#include "service/scene/change_effect.h"
 #include "service/scene/scene.h"
 #include "service/sph/world.h"
 
@@ -22,10 +23,17 @@ struct LoadedScene {
   FrameMailbox::Buffers frames;
 };
 
-/// What to build: a scene's text, or a known scene from its start.
+/// An effect is switched in a scene that runs at this speed of sound, m/s.
+struct EffectJob {
+  scene::EffectChange change;
+  double speed_of_sound = 0.0;
+};
+
+/// What to build: a scene's text, a known scene from its start, or a known scene with another effect.
 struct SceneJob {
   std::string text;
   std::shared_ptr<const scene::SceneDescription> known;  ///< instead of the text
+  std::optional<EffectJob> effect = {};                  ///< of `known`; the outcome has no frames, those of the old world fit
 };
 
 /// Runs on the loader's thread. invalid_argument: the scene has problems.
@@ -46,6 +54,8 @@ class SceneLoader {
   bool busy() const { return thread_.joinable(); }
   /// Must not be busy.
   void start(SceneJob job);
+  /// Frees a world on the loader's thread. Must not be busy.
+  void retire(std::unique_ptr<sph::World> world);
   /// The outcome of the job once it has ended, which also ends being busy.
   std::optional<Result<LoadedScene>> takeFinished();
 

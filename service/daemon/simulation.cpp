@@ -22,6 +22,7 @@ Clock::duration wallSeconds(double value) {
 
 dds::SceneReport describe(const scene::SceneDescription& scene, const sph::World& world, std::uint32_t epoch, double frame_rate) {
   dds::SceneReport report;
+  report.known_effects = scene::knownEffects();
   report.epoch = epoch;
   report.simd_target = sph::simdTargetName(world.simdTarget());
   report.precision = "float32";
@@ -55,14 +56,16 @@ Simulation::Simulation(const SimulationOptions& options, LoadedScene first, Scen
 }
 
 void Simulation::install(LoadedScene loaded, TimePoint now) {
-  const bool other_scene = loaded.scene != scene_;
+  const bool other_scene = loaded.scene != loaded_scene_;
   world_ = std::move(loaded.world);
   scene_ = std::move(loaded.scene);
+  loaded_scene_ = scene_;
   ++epoch_;
   if (other_scene) {
     frame_clock_ = FrameClock{options_.frame_rate.value_or(scene_->frame_rate)};
     attributes_ = scene_->attributes;
   }
+  attributes_ &= availableAttributes();
   faulted_ = false;
   fault_text_.clear();
   steps_left_ = 0;
@@ -73,7 +76,8 @@ void Simulation::install(LoadedScene loaded, TimePoint now) {
   frame_clock_.restart();
   channels_.journal.beginEpoch(epoch_);
   channels_.frames.renew(std::move(loaded.frames));
-  channels_.board.postScene(std::make_shared<const dds::SceneReport>(describe(*scene_, *world_, epoch_, frame_clock_.rate())));
+  for (const std::string& decision : scene_->decisions) record(dds::Decision{decision});
+  postScene();
   frame_clock_.take(world_->time());
   publishFrame(now);
   showState();
@@ -83,6 +87,12 @@ dds::SessionState Simulation::state() const {
   if (pending_load_) return dds::SessionState::loading;
   if (faulted_) return dds::SessionState::faulted;
   return pacer_.paused() ? dds::SessionState::paused : dds::SessionState::running;
+}
+
+void Simulation::postScene() {
+  dds::SceneReport report = describe(*scene_, *world_, epoch_, frame_clock_.rate());
+  report.loaded_text = loaded_scene_->normalized_text;
+  channels_.board.postScene(std::make_shared<const dds::SceneReport>(std::move(report)));
 }
 
 void Simulation::showState() {
@@ -95,7 +105,7 @@ void Simulation::showState() {
     report.frame_rate = frame_clock_.rate();
     report.particles = world_->particleCount();
     report.wounds = static_cast<std::uint32_t>(world_->wounds().size());
-    report.text = fault_text_;
+    report.text = note();
     report.full_frame_bytes = scene_->world.capacity * dds::frameBytesPerParticle(attributes_);
   });
   channels_.publisher.notify();
@@ -103,6 +113,7 @@ void Simulation::showState() {
 
 Simulation::Next Simulation::tick(TimePoint now) {
   finishLoading(now);
+  finishSwitching();
   drainInputs(now);
   applyInstruments();
   endSilentInstruments(now);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "service/daemon/channels.h"
@@ -58,6 +59,7 @@ class Simulation {
   void finishLoading(TimePoint now);
   void advance(TimePoint now);
   void publishFrame(TimePoint now);
+  void postScene();
   void showState();
   void fault(const std::string& reason, TimePoint now);
   std::optional<TimePoint> nextExpiry() const;
@@ -81,6 +83,13 @@ class Simulation {
     channels_.publisher.notify();
   }
 
+  // simulation_effects.cpp
+  Status startSwitching(const dds::SetEffect& set);
+  void finishSwitching();
+  std::uint32_t availableAttributes() const;
+  bool acts(std::string_view effect) const;
+  std::string note() const;
+
   // simulation_instruments.cpp
   void takeSample(const InstrumentInput& input);
   void applyInstruments();
@@ -92,7 +101,8 @@ class Simulation {
   Channels& channels_;
   SceneLoader loader_;
   std::unique_ptr<sph::World> world_;
-  std::shared_ptr<const scene::SceneDescription> scene_;
+  std::shared_ptr<const scene::SceneDescription> scene_;         // as it acts now
+  std::shared_ptr<const scene::SceneDescription> loaded_scene_;  // as the epoch began with it
   std::uint32_t epoch_ = 0;
   std::uint32_t attributes_ = 0;
   Pacer pacer_;
@@ -103,6 +113,7 @@ class Simulation {
   std::uint32_t steps_in_frame_ = 0;
   std::array<double, static_cast<std::size_t>(sph::Stage::count)> stage_seconds_at_frame_{};
   std::optional<PendingLoad> pending_load_;
+  std::optional<dds::DecodedRequest> pending_effect_;  // at most one of the two: there is one loader
   bool faulted_ = false;
   std::string fault_text_;
   bool ended_ = false;

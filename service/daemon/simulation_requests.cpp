@@ -30,6 +30,7 @@ void Simulation::drainInputs(TimePoint now) {
 
 void Simulation::carryOut(dds::DecodedRequest& request, TimePoint now) {
   const bool was_loading = pending_load_.has_value();
+  const bool was_switching = pending_effect_.has_value();
   const Result<sph::Applied> done = perform(request, now);
   if (!done) {
     answer(request, done.status(), 0);
@@ -38,6 +39,10 @@ void Simulation::carryOut(dds::DecodedRequest& request, TimePoint now) {
   if (!was_loading && pending_load_) {
     pending_load_->request = std::move(request);
     showState();
+    return;
+  }
+  if (!was_switching && pending_effect_) {
+    *pending_effect_ = std::move(request);
     return;
   }
   answer(request, {}, done->object_id);
@@ -75,7 +80,7 @@ Result<sph::Applied> Simulation::perform(dds::DecodedRequest& request, TimePoint
             return sph::Applied{};
           },
           [&](const dds::ResetSession&) -> Result<sph::Applied> {
-            if (Status started = startLoading({{}, scene_}, true, now); !started) return started;
+            if (Status started = startLoading({{}, loaded_scene_}, true, now); !started) return started;
             return sph::Applied{};
           },
           [&](const dds::StepSession& step) -> Result<sph::Applied> {
@@ -97,6 +102,10 @@ Result<sph::Applied> Simulation::perform(dds::DecodedRequest& request, TimePoint
             if (Status started = startLoading({std::move(load.text), {}}, false, now); !started) return started;
             return sph::Applied{};
           },
+          [&](const dds::SetEffect& set) -> Result<sph::Applied> {
+            if (Status started = startSwitching(set); !started) return started;
+            return sph::Applied{};
+          },
           [&](const dds::ShutdownSession&) -> Result<sph::Applied> {
             ended_ = true;
             return sph::Applied{};
@@ -116,6 +125,7 @@ Result<sph::Applied> Simulation::applyToWorld(const sph::Command& command) {
 
 Status Simulation::startLoading(SceneJob job, bool reset, TimePoint now) {
   if (pending_load_) return loadingNow();
+  if (pending_effect_) return {StatusCode::wrong_state, "an effect is being switched: wait for its reply"};
   // A world that stopped on bad numbers is paused by that alone: what replaces it runs.
   const bool stay_paused = pacer_.paused() && !faulted_;
   pending_load_.emplace(PendingLoad{{}, reset, stay_paused, faulted_});
@@ -126,9 +136,11 @@ Status Simulation::startLoading(SceneJob job, bool reset, TimePoint now) {
 
 Result<sph::Applied> Simulation::setOutput(const dds::SetOutput& output) {
   if (pending_load_) return loadingNow();
-  if (output.attributes && (*output.attributes & sph::kFrameViscosity) != 0 && !scene_->world.effects.viscosity) {
+  for (const dds::FrameBlock& block : dds::kFrameBlocks) {
+    if (!output.attributes || (*output.attributes & block.attribute & ~availableAttributes()) == 0) continue;
     return Status{StatusCode::unsupported,
-                  "output.attributes asks for viscosity, but the scene has no viscosity effect: leave the bit out"};
+                  fmt::format("output.attributes asks for {}, but the session has no {} effect: leave the bit out", block.name,
+                              block.effect)};
   }
   if (output.attributes) attributes_ = *output.attributes;
   if (output.frame_rate) frame_clock_.setRate(*output.frame_rate, world_->time());

@@ -1,7 +1,9 @@
 #include <cstring>
 #include <fmt/core.h>
 
+#include "service/dds/bounded_text.h"
 #include "service/dds/decode.h"
+#include "service/dds/frame_blocks.h"
 #include "service/dds/value_check.h"
 #include "service/sph/world.h"
 
@@ -45,33 +47,41 @@ Result<SetPace> decodePace(const bleed_v1_Pace& sample) {
   }
 }
 
+/// A boolean from the wire may hold any byte; reading it as bool would be undefined, so its storage is looked at.
+bool isSet(const bool& flag) {
+  std::uint8_t storage = 0;
+  std::memcpy(&storage, &flag, sizeof storage);
+  return storage != 0;
+}
+
 Result<SetOutput> decodeOutput(const bleed_v1_Output& sample) {
   SetOutput out;
   if (sample.rate_hz != 0.0) {
     if (Status rate = checkNumber("output.rate_hz", sample.rate_hz, kFrameRateLimits); !rate) return rate;
     out.frame_rate = sample.rate_hz;
   }
-  // A boolean from the wire may hold any byte; reading it as bool would be undefined, so its storage is looked at.
-  std::uint8_t set_attributes = 0;
-  std::memcpy(&set_attributes, &sample.set_attributes, sizeof set_attributes);
-  if (set_attributes == 0) return out;
-  constexpr std::uint32_t kVelocity = 1U << bleed_v1_SEMANTIC_VELOCITY;
-  constexpr std::uint32_t kDensity = 1U << bleed_v1_SEMANTIC_DENSITY;
-  constexpr std::uint32_t kViscosity = 1U << bleed_v1_SEMANTIC_VISCOSITY;
-  constexpr std::uint32_t kAlways = 1U << bleed_v1_SEMANTIC_POSITION | 1U << bleed_v1_SEMANTIC_ID;
-  const std::uint32_t unknown = sample.attributes & ~(kVelocity | kDensity | kViscosity | kAlways);
-  if (unknown != 0) {
-    return Status{StatusCode::unsupported,
-                  fmt::format("output.attributes has bits {:#x}, which this version does not publish: use velocity ({:#x}), "
-                              "viscosity ({:#x}), density ({:#x})",
-                              unknown, kVelocity, kViscosity, kDensity)};
-  }
+  if (!isSet(sample.set_attributes)) return out;
+  std::uint32_t known = 1U << bleed_v1_SEMANTIC_POSITION | 1U << bleed_v1_SEMANTIC_ID;
   std::uint32_t attributes = 0;
-  if ((sample.attributes & kVelocity) != 0) attributes |= sph::kFrameVelocity;
-  if ((sample.attributes & kDensity) != 0) attributes |= sph::kFrameDensity;
-  if ((sample.attributes & kViscosity) != 0) attributes |= sph::kFrameViscosity;
+  for (const FrameBlock& block : kFrameBlocks) {
+    known |= 1U << block.semantic;
+    if ((sample.attributes & 1U << block.semantic) != 0) attributes |= block.attribute;
+  }
+  if (const std::uint32_t unknown = sample.attributes & ~known; unknown != 0) {
+    return Status{
+        StatusCode::unsupported,
+        fmt::format("output.attributes has bits {:#x}, which this version does not publish: use bits of {:#x}", unknown, known)};
+  }
   out.attributes = attributes;
   return out;
+}
+
+Result<SetEffect> decodeEffect(const bleed_v1_Effect& sample) {
+  const std::string_view name = viewText(sample.name);
+  const std::string_view settings = viewText(sample.settings);
+  if (name.empty()) return Status{StatusCode::invalid_argument, "effect.name is empty: name an effect, e.g. viscosity"};
+  if (Status label = checkLabel("effect.name", name); !label) return label;
+  return SetEffect{std::string{name}, isSet(sample.enabled), std::string{settings}};
 }
 
 Result<LoadScene> decodeLoadScene(const bleed_v1_LoadScene& sample) {
@@ -117,6 +127,8 @@ Result<Action> decodeAction(const bleed_v1_RequestBody& body) {
       return asAction(decodeLoadScene(body._u.load_scene));
     case bleed_v1_REQUEST_SHUTDOWN:
       return Action{ShutdownSession{}};
+    case bleed_v1_REQUEST_EFFECT:
+      return asAction(decodeEffect(body._u.effect));
     default:
       return Status{StatusCode::unsupported,
                     fmt::format("request {} is not known to protocol {}.{}: use a newer bleedd or an older client", body._d,

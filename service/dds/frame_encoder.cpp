@@ -15,7 +15,6 @@ static_assert(std::endian::native == std::endian::little);
 namespace {
 
 constexpr std::size_t kScalarBytes = 4;
-constexpr std::uint32_t kEveryAttribute = sph::kFrameVelocity | sph::kFrameDensity | sph::kFrameViscosity;
 
 /// Writes one attribute after the other.
 class PayloadWriter {
@@ -54,10 +53,10 @@ void appendCounter(std::vector<bleed_v1_Counter>& counters, std::string_view nam
 }
 
 std::size_t frameBytesPerParticle(std::uint32_t attributes) {
-  std::size_t components = 3 + 1;
-  if ((attributes & sph::kFrameVelocity) != 0) components += 3;
-  if ((attributes & sph::kFrameDensity) != 0) components += 1;
-  if ((attributes & sph::kFrameViscosity) != 0) components += 1;
+  std::size_t components = 3 + 1;  // position, id
+  for (const FrameBlock& block : kFrameBlocks) {
+    if ((attributes & block.attribute) != 0) components += block.components;
+  }
   return components * kScalarBytes;
 }
 
@@ -67,7 +66,7 @@ FrameEncoder::FrameEncoder(const Uuid& session) {
 }
 
 void FrameEncoder::reserve(std::uint32_t particles) {
-  const std::size_t bytes = std::size_t{particles} * frameBytesPerParticle(kEveryAttribute);
+  const std::size_t bytes = std::size_t{particles} * frameBytesPerParticle(allFrameAttributes());
   if (payload_.size() < bytes) payload_.resize(bytes);
 }
 
@@ -86,14 +85,9 @@ const bleed_v1_Frame& FrameEncoder::encode(const FrameSnapshot& snapshot, std::u
   PayloadWriter writer{sample_, payload_.data()};
   writer.append(bleed_v1_SEMANTIC_POSITION, bleed_v1_SCALAR_FLOAT32, 3, frame.position.data());
   writer.append(bleed_v1_SEMANTIC_ID, bleed_v1_SCALAR_UINT32, 1, frame.id.data());
-  if ((frame.attributes & sph::kFrameVelocity) != 0) {
-    writer.append(bleed_v1_SEMANTIC_VELOCITY, bleed_v1_SCALAR_FLOAT32, 3, frame.velocity.data());
-  }
-  if ((frame.attributes & sph::kFrameDensity) != 0) {
-    writer.append(bleed_v1_SEMANTIC_DENSITY, bleed_v1_SCALAR_FLOAT32, 1, frame.density.data());
-  }
-  if ((frame.attributes & sph::kFrameViscosity) != 0) {
-    writer.append(bleed_v1_SEMANTIC_VISCOSITY, bleed_v1_SCALAR_FLOAT32, 1, frame.viscosity.data());
+  for (const FrameBlock& block : kFrameBlocks) {
+    if ((frame.attributes & block.attribute) == 0) continue;
+    writer.append(block.semantic, bleed_v1_SCALAR_FLOAT32, block.components, (frame.*block.values).data());
   }
   const auto bytes = static_cast<std::uint32_t>(writer.written());
   sample_.payload = {bytes, bytes, payload_.data(), false};

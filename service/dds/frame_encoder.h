@@ -29,7 +29,7 @@ class FrameEncoder {
   const bleed_v1_Frame& encode(const FrameSnapshot& snapshot, std::uint64_t seq);
 
  private:
-  static constexpr std::size_t kMaxAttributes = 5;
+  static constexpr std::size_t kMaxAttributes = 2 + kFrameBlocks.size();
 
   bleed_v1_Frame sample_{};
   std::array<bleed_v1_Attribute, kMaxAttributes> attributes_{};

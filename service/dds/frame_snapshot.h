@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "service/dds/frame_blocks.h"
 #include "service/dds/identity.h"
 #include "service/sph/world.h"
 
@@ -41,7 +42,7 @@ struct FrameSnapshot {
 
   /// Room for every attribute, so that switching one on allocates nothing.
   void reserve(std::uint32_t capacity) {
-    frame.reserve(capacity, sph::kFrameVelocity | sph::kFrameDensity | sph::kFrameViscosity);
+    frame.reserve(capacity, allFrameAttributes());
     wounds.reserve(kMaxWoundLedgers);
   }
 };

@@ -53,9 +53,14 @@ struct LoadScene {
   std::string text;
 };
 struct ShutdownSession {};
+struct SetEffect {
+  std::string name;
+  bool enabled = false;
+  std::string settings;  ///< protobuf text of the effect's message; empty: former ones or defaults
+};
 
 using Action = std::variant<Ping, sph::AddWound, sph::UpdateWound, sph::RemoveWound, PushForce, PauseSession, ResumeSession,
-                            ResetSession, StepSession, SetPace, SetOutput, LoadScene, ShutdownSession>;
+                            ResetSession, StepSession, SetPace, SetOutput, LoadScene, ShutdownSession, SetEffect>;
 
 /// A request sample that owns what it points to, for the journal.
 class RequestCopy {

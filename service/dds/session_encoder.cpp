@@ -59,6 +59,18 @@ SceneEncoder::SceneEncoder(const SessionIdentity& identity) {
   sample_.protocol_minor = bleed_v1_PROTOCOL_MINOR;
 }
 
+template <class Sequence>
+void SceneEncoder::lendNames(const std::vector<std::string>& names, std::vector<EffectName>& storage, Sequence& sequence) {
+  static_assert(sizeof(EffectName) == sizeof(char[65]));
+  storage.clear();
+  for (const std::string& name : names) {
+    if (storage.size() == kMaxEffects) break;
+    copyText(name, storage.emplace_back().text);
+  }
+  const auto count = static_cast<std::uint32_t>(storage.size());
+  sequence = {count, count, storage.empty() ? nullptr : &storage.front().text, false};
+}
+
 const bleed_v1_Scene& SceneEncoder::encode(const SceneReport& report) {
   sample_.epoch = report.epoch;
   copyText(report.simd_target, sample_.simd_target);
@@ -67,14 +79,10 @@ const bleed_v1_Scene& SceneEncoder::encode(const SceneReport& report) {
   text_ = report.text;
   sample_.scene_text = text_.data();
   sample_.seed = report.seed;
-  effects_.clear();
-  for (const std::string& effect : report.effects) {
-    if (effects_.size() == kMaxEffects) break;
-    copyText(effect, effects_.emplace_back().text);
-  }
-  static_assert(sizeof(EffectName) == sizeof(char[65]));
-  const auto count = static_cast<std::uint32_t>(effects_.size());
-  sample_.effects = {count, count, effects_.empty() ? nullptr : &effects_.front().text, false};
+  loaded_text_ = report.loaded_text;
+  sample_.loaded_text = loaded_text_.data();
+  lendNames(report.effects, effects_, sample_.effects);
+  lendNames(report.known_effects, known_effects_, sample_.known_effects);
   copyText(report.frame_id, sample_.frame_id);
   sample_.lower_bound = toWire(report.domain.lower);
   sample_.upper_bound = toWire(report.domain.upper);

@@ -40,12 +40,18 @@ class SceneEncoder {
   const bleed_v1_Scene& encode(const SceneReport& report);
 
  private:
-  bleed_v1_Scene sample_{};
-  std::string text_;
   struct EffectName {
     char text[65];
   };
+
+  template <class Sequence>
+  static void lendNames(const std::vector<std::string>& names, std::vector<EffectName>& storage, Sequence& sequence);
+
+  bleed_v1_Scene sample_{};
+  std::string text_;
+  std::string loaded_text_;
   std::vector<EffectName> effects_;
+  std::vector<EffectName> known_effects_;
 };
 
 bleed_v1_Reply encodeReply(const Reply& reply);

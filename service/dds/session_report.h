@@ -48,15 +48,17 @@ struct StatusReport {
   std::size_t full_frame_bytes = 0;  ///< payload of a frame at capacity; not published
 };
 
-/// What late joiners need to read frames. One per epoch.
+/// What late joiners need to read frames. One per epoch and switched effect.
 struct SceneReport {
   std::uint32_t epoch = 0;
   std::string simd_target;
   std::string precision;
   std::string name;
-  std::string text;  ///< normalised
+  std::string text;         ///< normalised, of what acts now
+  std::string loaded_text;  ///< the same as the epoch began with it
   std::uint64_t seed = 0;
   std::vector<std::string> effects;
+  std::vector<std::string> known_effects;
   std::string frame_id;
   sph::Domain domain;
   double spacing = 0.0;          ///< m

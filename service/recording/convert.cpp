@@ -158,6 +158,12 @@ void counters(ToMessage& to, const char* name, const Sequence& in, Repeated& out
   out.set_speed_of_sound_m_per_s(sample.speed_of_sound_m_per_s);
   out.set_frame_rate_hz(sample.frame_rate_hz);
   out.set_capacity(sample.capacity);
+  if (to.has("scene.known_effects", sample.known_effects)) {
+    for (std::uint32_t i = 0; i < sample.known_effects._length; ++i) {
+      to.text("scene.known_effects", sample.known_effects._buffer[i], out.add_known_effects());
+    }
+  }
+  to.text("scene.loaded_text", sample.loaded_text, out.mutable_loaded_text());
   return to.status();
 }
 

@@ -189,6 +189,12 @@ Result<SamplePtr<bleed_v1_Scene>> fromRecording(const Scene& message) {
   out->speed_of_sound_m_per_s = message.speed_of_sound_m_per_s();
   out->frame_rate_hz = message.frame_rate_hz();
   out->capacity = message.capacity();
+  if (to.reserve("scene.known_effects", message.known_effects_size(), kMaxEffects, out->known_effects)) {
+    for (int i = 0; i < message.known_effects_size(); ++i) {
+      to.text("scene.known_effects", message.known_effects(i), out->known_effects._buffer[i]);
+    }
+  }
+  to.text(message.loaded_text(), out->loaded_text);
   return finish(to, std::move(out));
 }
 

@@ -98,6 +98,11 @@ void requestToMessage(ToMessage& to, const bleed_v1_Request& in, Request& out) {
     case bleed_v1_REQUEST_SHUTDOWN:
       out.mutable_shutdown_session();
       break;
+    case bleed_v1_REQUEST_EFFECT:
+      to.text("effect.name", body.effect.name, out.mutable_effect()->mutable_name());
+      out.mutable_effect()->set_enabled(body.effect.enabled);
+      to.text("effect.settings", body.effect.settings, out.mutable_effect()->mutable_settings());
+      break;
     default:
       to.fail(StatusCode::unsupported,
               fmt::format("request kind {} is not known to this version; use a newer client", in.body._d));
@@ -162,6 +167,12 @@ void requestToSample(ToSample& to, const Request& in, bleed_v1_Request& out) {
       break;
     case Request::kShutdownSession:
       out.body._d = bleed_v1_REQUEST_SHUTDOWN;
+      break;
+    case Request::kEffect:
+      out.body._d = bleed_v1_REQUEST_EFFECT;
+      to.text("effect.name", in.effect().name(), body.effect.name);
+      body.effect.enabled = in.effect().enabled();
+      to.text("effect.settings", in.effect().settings(), body.effect.settings);
       break;
     case Request::BODY_NOT_SET:
       to.fail("request.body is missing");

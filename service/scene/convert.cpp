@@ -1,6 +1,7 @@
 #include "service/scene/convert.h"
 
-#include "service/sph/world.h"
+#include "service/scene/convert_effects.h"
+#include "service/scene/effect_names.h"
 
 namespace bleedsim::scene {
 namespace {
@@ -21,15 +22,6 @@ sph::Domain toDomain(const Domain& domain) {
   return {.lower = toVec3(domain.lower_m()),
           .upper = toVec3(domain.upper_m()),
           .periodic = {domain.periodic_x(), domain.periodic_y(), domain.periodic_z()}};
-}
-
-sph::EffectSettings toEffects(const Effects& effects) {
-  sph::EffectSettings result;
-  if (effects.has_gravity()) result.gravity = sph::GravitySettings{toVec3(effects.gravity().acceleration_m_per_s2())};
-  if (effects.has_pressure()) result.pressure = sph::PressureSettings{.background_pressure = effects.pressure().background_pressure_pa()};
-  if (effects.has_viscosity()) result.viscosity = sph::ViscositySettings{effects.viscosity().viscosity_pa_s()};
-  if (effects.has_applied_force()) result.applied_force = sph::AppliedForceSettings{effects.applied_force().max_sources()};
-  return result;
 }
 
 sph::TissueDescription toTissue(const Tissue& tissue) {
@@ -104,32 +96,15 @@ sph::WorldDescription toWorld(const Scene& scene) {
   world.compressibility = {.mach_factor = scene.compressibility().mach_factor(),
                            .design_speed = scene.compressibility().design_speed_m_per_s(),
                            .max_fall_or_depth = scene.compressibility().max_fall_or_depth_m()};
-  world.effects = toEffects(scene.effects());
+  const bool spline = scene.resolution().kernel() == Resolution::CUBIC_SPLINE;
+  world.kernel = spline ? sph::KernelType::cubic_spline : sph::KernelType::wendland_c2;
+  world.effects = convertEffects(scene.effects(), spline);
   for (const Tissue& tissue : scene.tissue()) world.tissue.push_back(toTissue(tissue));
   for (const Wound& wound : scene.wounds()) world.wounds.push_back(toWound(wound));
   for (const FluidBlock& block : scene.fluid_blocks()) world.fluid_blocks.push_back(toFluidBlock(block));
   world.max_wounds = scene.commands().max_wounds();
   if (scene.has_max_dt_s()) world.max_dt = scene.max_dt_s();
   return world;
-}
-
-std::uint32_t toAttributes(const Output& output) {
-  std::uint32_t bits = 0;
-  for (const int attribute : output.attributes()) {
-    if (attribute == Output::VELOCITY) bits |= sph::kFrameVelocity;
-    if (attribute == Output::DENSITY) bits |= sph::kFrameDensity;
-    if (attribute == Output::VISCOSITY) bits |= sph::kFrameViscosity;
-  }
-  return bits;
-}
-
-std::vector<std::string> effectNames(const Effects& effects) {
-  std::vector<std::string> names;
-  if (effects.has_gravity()) names.emplace_back("gravity");
-  if (effects.has_pressure()) names.emplace_back("pressure");
-  if (effects.has_viscosity()) names.emplace_back("viscosity");
-  if (effects.has_applied_force()) names.emplace_back("applied_force");
-  return names;
 }
 
 }  // namespace
@@ -140,10 +115,12 @@ SceneDescription convert(const Scene& scene) {
           .frame_id = scene.frame_id(),
           .world = toWorld(scene),
           .frame_rate = scene.output().frame_rate_hz(),
-          .attributes = toAttributes(scene.output()),
+          .attributes = convertAttributes(scene.output()),
           .instrument_expiry = scene.commands().instrument_expiry_s(),
           .normalized_text = {},
-          .effects = effectNames(scene.effects())};
+          .effects = enabledEffects(scene.effects()),
+          .decisions = {},
+          .former_settings = {}};
 }
 
 }  // namespace bleedsim::scene

@@ -14,18 +14,6 @@ void fillVec3(Vec3& vector, double x, double y, double z) {
   vector.set_z(z);
 }
 
-void fillEffects(Effects& effects) {
-  if (effects.has_gravity() && !effects.gravity().has_acceleration_m_per_s2()) {
-    fillVec3(*effects.mutable_gravity()->mutable_acceleration_m_per_s2(), 0.0, 0.0, -9.81);
-  }
-  if (effects.has_viscosity() && !effects.viscosity().has_viscosity_pa_s()) {
-    effects.mutable_viscosity()->set_viscosity_pa_s(0.00345);
-  }
-  if (effects.has_applied_force() && !effects.applied_force().has_max_sources()) {
-    effects.mutable_applied_force()->set_max_sources(64);
-  }
-}
-
 void fillTissue(Tissue& tissue) {
   if (!tissue.has_slip()) tissue.set_slip(0.0);
   if (tissue.has_plane()) tissue.mutable_plane()->mutable_point_m();
@@ -56,7 +44,12 @@ void sortAttributes(Output& output) {
 void fillDefaults(Scene& scene) {
   if (!scene.has_seed()) scene.set_seed(1);
   if (scene.frame_id().empty()) scene.set_frame_id("bleedsim");
-  if (scene.has_resolution() && !scene.resolution().has_support_ratio()) scene.mutable_resolution()->set_support_ratio(2.0);
+  if (!scene.has_model()) scene.set_model(Scene::SOUND);
+  if (scene.has_resolution()) {
+    Resolution& resolution = *scene.mutable_resolution();
+    if (!resolution.has_support_ratio()) resolution.set_support_ratio(2.0);
+    if (!resolution.has_kernel()) resolution.set_kernel(Resolution::WENDLAND_C2);
+  }
   if (!scene.fluid().has_density_kg_per_m3()) scene.mutable_fluid()->set_density_kg_per_m3(1060.0);
   if (scene.has_compressibility() && !scene.compressibility().has_mach_factor()) {
     scene.mutable_compressibility()->set_mach_factor(10.0);

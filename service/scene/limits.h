@@ -28,10 +28,36 @@ inline constexpr Range kMachFactor{5.0, 50.0, "1"};
 inline constexpr Range kDesignSpeed{0.001, 20.0, "m/s"};
 inline constexpr Range kMaxFallOrDepth{0.0, 10.0, "m"};
 inline constexpr Range kMaxDt{1e-9, 1.0, "s"};
+inline constexpr Range kHorizon{1e-3, 1e6, "s"};
 
 inline constexpr Range kGravity{0.0, 1000.0, "m/s^2, its length"};
 inline constexpr Range kBackgroundPressure{0.0, 1e6, "Pa"};
 inline constexpr Range kViscosity{0.0, 1000.0, "Pa s"};
+inline constexpr Range kShearViscosity{1e-5, 1000.0, "Pa s"};  ///< of a rheology: it is divided by
+inline constexpr Range kRheologyTime{1e-6, 1e4, "s"};
+inline constexpr Range kRheologyPower{0.05, 1.0, "1"};
+inline constexpr Range kRheologyTransition{0.1, 10.0, "1"};
+inline constexpr Range kYieldStress{0.0, 100.0, "Pa"};
+inline constexpr Range kRegularisation{1e-3, 100.0, "1/s"};
+inline constexpr Range kSolveTolerance{1e-6, 0.5, "1"};
+inline constexpr Range kSolveIterations{1.0, 1000.0, "iterations"};
+inline constexpr Range kSurfaceTension{1e-5, 1.0, "N/m"};
+inline constexpr Range kTemperature{0.0, 60.0, "degrees C"};
+inline constexpr Range kNormalCutoff{0.01, 3.0, "1"};
+inline constexpr Range kContactAngle{0.0, 180.0, "degrees"};
+inline constexpr Range kPlatelet{0.0, 1.0, "1"};
+inline constexpr Range kDiffusivity{0.0, 1e-3, "m^2/s"};
+inline constexpr Range kClotRate{0.0, 100.0, "1/s"};
+inline constexpr Range kShearGate{0.1, 1e6, "1/s"};
+inline constexpr Range kClotSpeedup{0.0, 1e4, "1"};
+inline constexpr Range kSmallestRadius{0.5, 1.0, "1"};
+inline constexpr Range kLargestRadius{1.0, 1.5, "1"};
+inline constexpr Range kRadiusRelaxation{1e-3, 1.0, "1"};
+inline constexpr Range kRepulsionStrength{0.0, 10.0, "1"};
+inline constexpr Range kContactDistance{0.1, 1.0, "spacings"};
+inline constexpr Range kRepulsionPower{1.0, 12.0, "1"};
+inline constexpr Range kRepulsionDamping{0.0, 10.0, "c0/dx"};
+inline constexpr Range kAdhesion{0.0, 1000.0, "m/s^2"};
 inline constexpr Range kMaxSources{1.0, 256.0, "sources"};
 
 inline constexpr Range kDirection{1e-6, 1e6, "1, its length"};

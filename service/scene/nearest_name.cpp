@@ -34,6 +34,10 @@ std::string nearestName(std::string_view name, std::span<const std::string> cand
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 2) + 1;
   for (const std::string& candidate : candidates) {
+    // A forgotten unit: "radius" is "radius_m".
+    const bool without_unit =
+        !name.empty() && candidate.size() > name.size() && candidate.starts_with(name) && candidate[name.size()] == '_';
+    if (without_unit) return candidate;
     const std::size_t distance = editDistance(name, candidate);
     if (distance >= best_distance) continue;
     best = candidate;

@@ -7,8 +7,9 @@
 
 namespace bleedsim::scene {
 
-/// The candidate with the smallest edit distance to `name`, the first of equals; empty if none is near enough to be meant (more
-/// than half of the letters, at least 2, would have to change).
+/// The first candidate that is `name` with something after an underscore, e.g. its unit; else the one with the smallest edit
+/// distance, the first of equals; empty if none is near enough to be meant (more than half of the letters, at least 2, would have
+/// to change).
 std::string nearestName(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace bleedsim::scene

@@ -1,13 +1,42 @@
+#include <algorithm>
 #include <fmt/format.h>
 
+#include "service/scene/auto_effects.h"
 #include "service/scene/convert.h"
 #include "service/scene/fill_defaults.h"
-#include "service/scene/problem_list.h"
+#include "service/scene/finish_scene.h"
 #include "service/scene/read_text.h"
-#include "service/scene/scene.h"
 #include "service/scene/validate.h"
+#include "service/sph/world.h"
 
 namespace bleedsim::scene {
+namespace {
+
+/// Lets effects.auto act on the description; what is left out takes its name and its attribute along.
+void decide(const Scene& message, SceneDescription& description) {
+  std::optional<double> horizon;
+  if (message.has_horizon_s()) horizon = message.horizon_s();
+  const auto& names = message.effects().auto_();
+  for (const AutoDecision& decision : applyAuto({names.begin(), names.end()}, horizon, description.world)) {
+    description.decisions.push_back(
+        fmt::format("auto: {} {}: {}", decision.name, decision.enabled ? "stays on" : "off", decision.reason));
+    if (decision.enabled) continue;
+    std::erase(description.effects, decision.name);
+    if (decision.name == kAutoPlatelets) description.attributes &= ~std::uint32_t{sph::kFramePlatelet};
+  }
+}
+
+}  // namespace
+
+Result<SceneDescription> finishScene(Scene& message, ProblemList& problems) {
+  fillDefaults(message);
+  validate(message, problems);
+  if (!problems.empty()) return problems.toStatus();
+  SceneDescription description = convert(message);
+  description.normalized_text = writeText(message);
+  decide(message, description);
+  return description;
+}
 
 Result<SceneDescription> parseScene(std::string_view text) {
   if (text.size() > kMaxSceneBytes) {
@@ -16,14 +45,8 @@ Result<SceneDescription> parseScene(std::string_view text) {
   }
   Scene message;
   ProblemList problems;
-  if (readText(text, message, problems)) {
-    fillDefaults(message);
-    validate(message, problems);
-  }
-  if (!problems.empty()) return problems.toStatus();
-  SceneDescription description = convert(message);
-  description.normalized_text = writeText(message);
-  return description;
+  if (!readText(text, message, problems)) return problems.toStatus();
+  return finishScene(message, problems);
 }
 
 }  // namespace bleedsim::scene

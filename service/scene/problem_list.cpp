@@ -33,4 +33,10 @@ Status ProblemList::toStatus() const {
   return {StatusCode::invalid_argument, std::move(message)};
 }
 
+Status ProblemList::firstToStatus() const {
+  if (empty()) return {};
+  if (count_ == 1) return {StatusCode::invalid_argument, kept_.front()};
+  return {StatusCode::invalid_argument, fmt::format("{} (and {} more)", kept_.front(), count_ - 1)};
+}
+
 }  // namespace bleedsim::scene

@@ -32,6 +32,8 @@ class ProblemList {
 
   /// ok, or invalid_argument with one problem per line.
   Status toStatus() const;
+  /// ok, or invalid_argument with the first problem alone and how many there are beside it.
+  Status firstToStatus() const;
 
  private:
   std::vector<std::string> kept_;

@@ -76,7 +76,7 @@ class TextProblems final : public google::protobuf::io::ErrorCollector {
 
 }  // namespace
 
-bool readText(std::string_view text, Scene& message, ProblemList& problems) {
+bool readText(std::string_view text, google::protobuf::Message& message, ProblemList& problems) {
   TextProblems collector{problems};
   google::protobuf::TextFormat::Parser parser;
   parser.RecordErrorsTo(&collector);
@@ -86,7 +86,7 @@ bool readText(std::string_view text, Scene& message, ProblemList& problems) {
   return parser.Parse(&stream, &message);
 }
 
-std::string writeText(const Scene& message) {
+std::string writeText(const google::protobuf::Message& message) {
   google::protobuf::TextFormat::Printer printer;
   printer.SetUseUtf8StringEscaping(true);
   std::string text;

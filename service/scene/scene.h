@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,23 +17,31 @@ namespace bleedsim::scene {
 /// Longest scene text that is read, bytes.
 inline constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20;
 
+/// Settings texts of effects by name.
+using SettingsMemory = std::map<std::string, std::string>;
+
 /// A valid scene in SI units.
 struct SceneDescription {
   std::string name;
   std::string description;
   std::string frame_id;  ///< coordinate frame of all positions, "bleedsim" if the scene names none
   sph::WorldDescription world;
-  double frame_rate = 60.0;          ///< frames per simulated second, 1/s
-  std::uint32_t attributes = 0;      ///< sph::FrameAttribute bits of a frame beside positions and ids
-  double instrument_expiry = 0.1;    ///< wall time after which a silent instrument ends, s
-  std::string normalized_text;       ///< the scene with every default filled in; parses to this description
-  std::vector<std::string> effects;  ///< names of the enabled effects, in the solver's order
+  double frame_rate = 60.0;            ///< frames per simulated second, 1/s
+  std::uint32_t attributes = 0;        ///< sph::FrameAttribute bits of a frame beside positions and ids
+  double instrument_expiry = 0.1;      ///< wall time after which a silent instrument ends, s
+  std::string normalized_text;         ///< the scene with every default filled in; parses to this description
+  std::vector<std::string> effects;    ///< names of the effects that act, in the order of idl/scene.proto
+  std::vector<std::string> decisions;  ///< of effects.auto, each with its reason and figures
+  SettingsMemory former_settings;      ///< of effects that were switched while the scene ran, see changeEffect()
 };
 
 /// Reads and checks a scene. invalid_argument with every problem found, one per line: the field's path (or line:column of the
 /// text), the value and what is allowed. What only the solver can tell (a wound's speed against the speed of sound, the exact
 /// number of seeded particles) is left to sph::createWorld.
 Result<SceneDescription> parseScene(std::string_view text);
+
+/// Every effect that a scene can name, in the order of idl/scene.proto.
+std::vector<std::string> knownEffects();
 
 /// parseScene() of a file. not_found or io if it cannot be read, invalid_argument if it is larger than kMaxSceneBytes or not a
 /// valid scene; the message names the path.

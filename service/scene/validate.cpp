@@ -66,6 +66,8 @@ void validate(const Scene& scene, ProblemList& problems) {
   validateText(scene, problems);
   validateDomain(scene, problems);
   validateEffects(scene, problems);
+  validateCombinations(scene, problems);
+  validateOutput(scene, problems);
   validateTissue(scene, problems);
   validateWounds(scene, problems);
   validateFluidBlocks(scene, problems);

@@ -14,8 +14,12 @@ void validate(const Scene& scene, ProblemList& problems);
 
 /// Box, periodic sides, capacity, resolution, fluid, compressibility, step limit.
 void validateDomain(const Scene& scene, ProblemList& problems);
-/// Effects, outputs and command bounds.
+/// The values of the effects, each for itself.
 void validateEffects(const Scene& scene, ProblemList& problems);
+/// Effects that cannot work together, or without something else of the scene.
+void validateCombinations(const Scene& scene, ProblemList& problems);
+/// Outputs and command bounds.
+void validateOutput(const Scene& scene, ProblemList& problems);
 void validateTissue(const Scene& scene, ProblemList& problems);
 void validateWounds(const Scene& scene, ProblemList& problems);
 void validateFluidBlocks(const Scene& scene, ProblemList& problems);

@@ -56,6 +56,10 @@ double validateResolution(const Scene& scene, ProblemList& problems) {
   const Resolution& resolution = scene.resolution();
   problems.requireInRange("resolution.spacing_m", resolution.spacing_m(), kSpacing);
   problems.requireInRange("resolution.support_ratio", resolution.support_ratio(), kSupportRatio);
+  if (!Resolution::Kernel_IsValid(resolution.kernel())) {
+    problems.add("resolution.kernel",
+                 fmt::format("value {} is unknown, known are WENDLAND_C2, CUBIC_SPLINE", static_cast<int>(resolution.kernel())));
+  }
   const double support = resolution.spacing_m() * resolution.support_ratio();
   return problems.count() == before && std::isfinite(support) ? support : 0.0;
 }
@@ -87,6 +91,12 @@ void validateDomain(const Scene& scene, ProblemList& problems) {
   problems.requireInRange("fluid.density_kg_per_m3", scene.fluid().density_kg_per_m3(), kDensity);
   validateCompressibility(scene, problems);
   if (scene.has_max_dt_s()) problems.requireInRange("max_dt_s", scene.max_dt_s(), kMaxDt);
+  if (scene.has_horizon_s()) problems.requireInRange("horizon_s", scene.horizon_s(), kHorizon);
+  if (!Scene::Model_IsValid(scene.model())) {
+    problems.add("model", fmt::format("value {} is unknown, known are SOUND, LITERAL", static_cast<int>(scene.model())));
+  } else if (scene.model() == Scene::LITERAL) {
+    problems.add("model", "LITERAL is not in this version; use SOUND");
+  }
 }
 
 }  // namespace bleedsim::scene

@@ -5,8 +5,12 @@
 namespace bleedsim::sph {
 
 RestLattice calibrateRestLattice(const SmoothingKernel& kernel, double spacing, double rest_density) {
+  return calibrateRestLattice(kernel, spacing, rest_density, kernel.h);
+}
+
+RestLattice calibrateRestLattice(const SmoothingKernel& kernel, double spacing, double rest_density, double softening_radius) {
   const int reach = static_cast<int>(std::ceil(kernel.h / spacing));
-  const double softening = 0.01 * kernel.h * kernel.h;
+  const double softening = 0.01 * softening_radius * softening_radius;
   double kernel_sum = 0.0;
   double laplacian_sum = 0.0;  // of v = r^2/(2 d), whose Laplacian is 1
   const int layers = kernel.planar() ? 0 : reach;

@@ -13,5 +13,7 @@ struct RestLattice {
 
 /// physics.md section 2: the factor of Wendland C2 is 1.0843 / 1.0734 / 1.0427 at h = 2 / 2.5 / 3 dx.
 RestLattice calibrateRestLattice(const SmoothingKernel& kernel, double spacing, double rest_density);
+/// Where the pairs' 0.01 h^2 is that of another support radius than the kernel's, m.
+RestLattice calibrateRestLattice(const SmoothingKernel& kernel, double spacing, double rest_density, double softening_radius);
 
 }  // namespace bleedsim::sph

@@ -35,6 +35,8 @@ void copyVisible(const Particles<Real>& p, const Real* density, std::uint32_t co
       frame.viscosity[n] =
           static_cast<float>(p.inverse_viscosity.empty() ? viscosity : 1.0 / static_cast<double>(p.inverse_viscosity[i]));
     }
+    if (attributes & kFramePlatelet) frame.platelet[n] = p.platelet.empty() ? 0.0F : static_cast<float>(p.platelet[i]);
+    if (attributes & kFrameRadius) frame.radius[n] = static_cast<float>(p.radius.empty() ? scale : p.radius[i] * scale);
     ++n;
   }
   frame.count = n;

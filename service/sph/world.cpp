@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "service/sph/effects/effect_list.h"
 #include "service/sph/effects/literal_list.h"
 #include "service/sph/seeding.h"
+#include "service/sph/world_checks.h"
 #include "service/sph/world_core.h"
 #include "service/sph/world_setup.h"
 
@@ -35,6 +37,18 @@ Status checkEffects(const EffectSettings& effects) {
   }
   if (effects.viscosity && !isFiniteNotNegative(effects.viscosity->viscosity)) {
     return invalid("viscosity must be finite and not negative");
+  }
+  if (const auto& tension = effects.surface_tension) {
+    if (!isFiniteNotNegative(tension->coefficient)) return invalid("the surface tension must be finite and not negative");
+    if (!(tension->normal_cutoff > 0.0) || !std::isfinite(tension->normal_cutoff)) {
+      return invalid("the cut-off of surface normals must be finite and greater than 0");
+    }
+    if (tension->contact_angle && !(*tension->contact_angle >= 0.0 && *tension->contact_angle <= std::numbers::pi)) {
+      return invalid("the contact angle must be 0 to pi rad");
+    }
+  }
+  if (effects.adhesion && !isFiniteNotNegative(effects.adhesion->acceleration)) {
+    return invalid("adhesion must be finite and not negative");
   }
   if (effects.applied_force && effects.applied_force->max_sources > kMostForceSources) {
     return invalid("applied_force.max_sources is " + std::to_string(effects.applied_force->max_sources) + "; use at most " +
@@ -74,15 +88,18 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   if (Status status = checkEffects(d.effects); !status.ok()) return status;
   if (Status status = checkLiteral(d); !status.ok()) return status;
   if (Status status = checkPlanar(d); !status.ok()) return status;
+  if (Status status = checkEffectSet(d); !status.ok()) return status;
   const double h = d.supportRadius();
-  const double c0 = speedOfSound(d);
+  const double c0 = options.speed_of_sound.value_or(speedOfSound(d));
   if (!(c0 > 0.0) || !std::isfinite(c0)) return invalid("the speed of sound must be greater than 0 m/s: set a design speed");
   double cells = 1.0;
   for (Eigen::Index a = 0; a < 3; ++a) {
     const double length = d.domain.upper[a] - d.domain.lower[a];
     if (!(length > 0.0) || !std::isfinite(length)) return invalid("the domain's upper corner must lie above its lower corner");
-    if (d.domain.periodic[static_cast<std::size_t>(a)] && length < 3.0 * h) {
-      return invalid("a periodic side must measure at least three support radii, " + std::to_string(3.0 * h) + " m");
+    const double shortest = 3.0 * h * radiusBounds(d).largest;
+    if (d.domain.periodic[static_cast<std::size_t>(a)] && length < shortest) {
+      return invalid("a periodic side must measure at least three of the largest support radii, " + std::to_string(shortest) +
+                     " m");
     }
     cells *= length / h + 2.0 * kThroatMargin;
   }
@@ -112,8 +129,11 @@ Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptio
                                      const WorldTables<Real>& tables) {
   const SmoothingKernel kernel = d.densityKernel();
   const RestLattice lattice = calibrateRestLattice(kernel, d.spacing, d.rest_density);
-  Result<TissueField<Real>> tissue = TissueField<Real>::create(
-      d.tissue, {.kernel = kernel, .spacing = d.spacing, .particle_mass = lattice.particle_mass, .rest_density = d.rest_density});
+  Result<TissueField<Real>> tissue = TissueField<Real>::create(d.tissue, {.kernel = kernel,
+                                                                          .spacing = d.spacing,
+                                                                          .particle_mass = lattice.particle_mass,
+                                                                          .rest_density = d.rest_density,
+                                                                          .radii = radiusBounds(d)});
   if (!tissue) return tissue.status();
   auto world = std::make_unique<WorldCore<Real>>(d, options, target, tables, lattice, std::move(*tissue));
   if (Status status = world->populate(); !status.ok()) return status;
@@ -164,6 +184,8 @@ void FrameBuffer::reserve(std::uint32_t capacity, std::uint32_t attributes_wante
   velocity.resize(attributes_wanted & kFrameVelocity ? 3 * n : 0);
   density.resize(attributes_wanted & kFrameDensity ? n : 0);
   viscosity.resize(attributes_wanted & kFrameViscosity ? n : 0);
+  platelet.resize(attributes_wanted & kFramePlatelet ? n : 0);
+  radius.resize(attributes_wanted & kFrameRadius ? n : 0);
 }
 
 std::string_view stageName(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,9 @@ struct WorldOptions {
   int threads = 1;  ///< 1..64; results are bit-equal for any value
   SimdTarget simd = SimdTarget::automatic;
   Precision precision = Precision::float32;
+  /// m/s, instead of the description's: a world that takes over another one's state must keep its speed of sound, because a
+  /// change of it pumps energy.
+  std::optional<double> speed_of_sound = {};
 };
 
 /// The stages of World::step, in order.
@@ -56,6 +60,8 @@ enum FrameAttribute : std::uint32_t {
   kFrameVelocity = 1u << 0,
   kFrameDensity = 1u << 1,
   kFrameViscosity = 1u << 2,
+  kFramePlatelet = 1u << 3,  ///< with the platelets effect
+  kFrameRadius = 1u << 4,    ///< with the core radius effect
 };
 
 /// A copy of the visible particles; buffers are sized once with reserve() and reused. Order is storage order; ids are stable.
@@ -69,6 +75,8 @@ struct FrameBuffer {
   std::vector<float> velocity;    ///< 3 x count, m/s
   std::vector<float> density;     ///< count, kg/m^3
   std::vector<float> viscosity;   ///< count, Pa s
+  std::vector<float> platelet;    ///< count, P, 0 to 1
+  std::vector<float> radius;      ///< count, own support radius, m
 
   void reserve(std::uint32_t capacity, std::uint32_t attributes_wanted);
 };
@@ -138,6 +146,13 @@ class World {
   virtual void copyFrame(FrameBuffer& frame, std::uint32_t attributes) const = 0;
   /// Hash of the complete state (positions, velocities, ids, time); equal states have equal hashes.
   virtual std::uint64_t stateHash() const = 0;
+
+  /// Takes over the complete state of `from`, a world of the same description but for its effects: particles, wounds with their
+  /// throats, force sources, ledgers, counters, time and step. Goes on as `from` would have; the first half kick is still that of
+  /// the effects of `from`. Quantities that `from` does not carry start as in fresh blood. Allocates nothing. `from` must not be
+  /// stepped afterwards. invalid_argument: the descriptions differ in more than effects; capacity: more force sources than
+  /// this world has; both leave both worlds as they are.
+  virtual Status adopt(World& from) = 0;
 
   virtual const WorldDescription& description() const = 0;
   virtual SimdTarget simdTarget() const = 0;

@@ -24,6 +24,9 @@ std::array<Real, 3> inSupportRadii(const Vec3& v, double h) {
   return {static_cast<Real>(v.x() / h), static_cast<Real>(v.y() / h), static_cast<Real>(v.z() / h)};
 }
 
+// Pairs that are in contact when repulsion is switched on would burst apart: contacts grow from nothing over this time, in dx/c0.
+constexpr double kContactGrowth = 200.0;
+
 std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -33,7 +36,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
                            const WorldTables<Real>& tables, const RestLattice& lattice, TissueField<Real> tissue)
     : description_{description},
       target_{target},
-      speed_of_sound_{sph::speedOfSound(description)},
+      speed_of_sound_{options.speed_of_sound.value_or(sph::speedOfSound(description))},
       lattice_{lattice},
       h_{description.supportRadius()},
       domain_{inSupportRadii<Real>(description.domain.lower, h_), inSupportRadii<Real>(description.domain.upper, h_),
@@ -44,10 +47,20 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
       executor_{makeExecutor(options.threads)},
       particles_{description.capacity, particleFields<Real>(description), 0},
       sorted_{description.capacity, particleFields<Real>(description), Particles<Real>::kArrays},
-      grid_{description.capacity,        asArray(description.domain.lower / h_),    asArray(description.domain.upper / h_),
-            description.domain.periodic, kThroatMargin / description.support_ratio, options.threads},
-      passes_{tables.passes,        pairLayout(description),   pairConstants<Real>(description, lattice, speed_of_sound_),
-              description.capacity, description.support_ratio, options.threads},
+      grid_{description.capacity,
+            asArray(description.domain.lower / h_),
+            asArray(description.domain.upper / h_),
+            description.domain.periodic,
+            kThroatMargin / description.support_ratio,
+            options.threads,
+            radiusBounds(description).largest},
+      passes_{tables.passes,
+              pairLayout(description),
+              pairConstants<Real>(description, lattice, speed_of_sound_),
+              description.capacity,
+              description.support_ratio * radiusBounds(description).largest,
+              options.threads,
+              latticeFactors<Real>(description)},
       walls_{std::move(tissue), wallConstants<Real>(description, lattice, speed_of_sound_), description.capacity,
              options.threads},
       wounds_{description, speed_of_sound_},
@@ -62,6 +75,9 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     opening_ = 1.0;
     literal_.emplace(description, lattice, speed_of_sound_, viscosityVaries(description), target);
   }
+  if (const auto& core_radius = description.effects.core_radius) {
+    core_radius_.emplace(*core_radius, description.rest_density, options.threads);
+  }
   if (mayNeedImplicitViscosity(description, speed_of_sound_)) {
     const ViscositySettings& viscosity = *description.effects.viscosity;
     const bool varies = viscosityVaries(description);
@@ -73,6 +89,10 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
   if (description.effects.applied_force) {
     applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_,
                            (description.domain.upper - description.domain.lower).norm());
+  }
+  if (description.effects.surface_tension && description.model == Model::sound) {
+    surface_tension_.emplace(*description.effects.surface_tension, tables.sweeps, lattice.particle_mass, description.rest_density,
+                             h_, description.capacity);
   }
 }
 
@@ -96,6 +116,7 @@ Status WorldCore<Real>::populate() {
       if (!particles_.platelet.empty()) {
         particles_.platelet[i] = static_cast<Real>(block.platelet.value_or(description_.effects.platelets->fresh));
       }
+      if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
     });
   }
   injected_ = count_;
@@ -164,6 +185,7 @@ void WorldCore<Real>::emit(double dt) {
       particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / description_.effects.viscosity->viscosity);
     }
     if (!particles_.platelet.empty()) particles_.platelet[i] = static_cast<Real>(description_.effects.platelets->fresh);
+    if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
     std::fill_n(passes_.acceleration() + std::size_t{i} * 4, 4, Real(0));
     return true;
   });
@@ -191,7 +213,7 @@ void WorldCore<Real>::move(double dt) {
 
 template <class Real>
 void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds) {
-  grid_.cover(bounds);
+  grid_.cover(bounds, passes_.reach());
   executor_->run(shares_, [&](int share) {
     const ShareRange range{count_, share, shares_};
     std::uint32_t* cells = grid_.cells();
@@ -216,7 +238,10 @@ void WorldCore<Real>::computeAccelerations() {
   if (literal_) {
     literal_->add(grid_, particles_, passes_, count_, shares_, *executor_);
   } else {
+    const double growth_time = kContactGrowth * description_.spacing / speed_of_sound_;
+    passes_.setContactGrowth(static_cast<Real>(std::min(1.0, (time_ - repulsion_start_) / growth_time)));
     passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
+    if (surface_tension_) surface_tension_->add(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
   }
   clock_.lap(Stage::force);
   if (solving_viscosity_) implicit_viscosity_->clearDrag(count_);
@@ -250,6 +275,9 @@ void WorldCore<Real>::finishStep(double dt) {
   if (faulted_) return;
   if (solving_viscosity_ && dt > 0.0) solveViscosity(dt);
   if (literal_) literal_->diffuse(particles_, passes_, static_cast<Real>(dt), count_, shares_, *executor_);
+  if (core_radius_ && dt > 0.0) {
+    passes_.setReach(core_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
+  }
   counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
   counter(Counter::speed_clamped) += total.speed_clamped;
   counter(Counter::acceleration_clamped) += total.acceleration_clamped;
@@ -379,6 +407,7 @@ MemoryUse WorldCore<Real>::memory() const {
   use.grid = grid_.bytes();
   use.tissue = walls_.bytes();
   if (implicit_viscosity_) use.effects += implicit_viscosity_->bytes();
+  if (surface_tension_) use.effects += surface_tension_->bytes();
   return use;
 }
 

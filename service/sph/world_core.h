@@ -2,13 +2,16 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "service/sph/effects/applied_force.h"
+#include "service/sph/effects/core_radius.h"
 #include "service/sph/effects/implicit_viscosity.h"
 #include "service/sph/effects/literal_forces.h"
+#include "service/sph/effects/surface_tension.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"
@@ -50,6 +53,7 @@ class WorldCore final : public World {
   std::span<const WoundState> wounds() const override { return wounds_.states(); }
   void copyFrame(FrameBuffer& frame, std::uint32_t attributes) const override;
   std::uint64_t stateHash() const override;
+  Status adopt(World& world) override;
   const WorldDescription& description() const override { return description_; }
   SimdTarget simdTarget() const override { return target_; }
   double speedOfSound() const override { return speed_of_sound_; }
@@ -92,9 +96,11 @@ class WorldCore final : public World {
   WoundSet wounds_;
   std::optional<AppliedForce<Real>> applied_force_;
   std::optional<LiteralForces<Real>> literal_;
+  std::optional<CoreRadius<Real>> core_radius_;
   std::optional<ImplicitViscosity<Real>> implicit_viscosity_;
   bool solving_viscosity_ = false;  // implicitly, in this step
   int viscosity_iterations_ = 0;
+  std::optional<SurfaceTension<Real>> surface_tension_;
   std::vector<DriftResult<Real>> drift_results_;
   std::vector<KickResult<Real>> kick_results_;
 
@@ -108,6 +114,7 @@ class WorldCore final : public World {
   double last_dt_ = 0.0;
   double next_dt_ = 0.0;
   double max_speed_ = 0.0;
+  double repulsion_start_ = -std::numeric_limits<double>::infinity();  // simulated time at which it was switched on, s
   bool faulted_ = false;
   StageClock clock_;
   std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> counters_{};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/integrate/time_step.h"
@@ -18,6 +19,18 @@ namespace bleedsim::sph {
 
 /// Wounds' throats may reach this far out of the domain, in spacings.
 constexpr double kThroatMargin = 16.0;
+
+/// Of particles' own support radii, over h.
+inline RadiusBounds radiusBounds(const WorldDescription& description) {
+  const auto& core_radius = description.effects.core_radius;
+  return core_radius ? RadiusBounds{core_radius->smallest, core_radius->largest} : RadiusBounds{};
+}
+
+template <class Real>
+std::optional<LatticeFactors<Real>> latticeFactors(const WorldDescription& description) {
+  if (!description.effects.core_radius) return std::nullopt;
+  return LatticeFactors<Real>{{description.kernel, description.supportRadius()}, description.spacing, radiusBounds(description)};
+}
 
 /// Whether particles differ in viscosity: by their block, their shear rate, their platelets or their support radius.
 inline bool viscosityVaries(const WorldDescription& description) {
@@ -73,10 +86,22 @@ inline bool mayNeedImplicitViscosity(const WorldDescription& description, double
   const auto& viscosity = description.effects.viscosity;
   if (!viscosity || viscosity->solve == ViscositySolve::explicit_) return false;
   if (description.model == Model::literal || description.planar) return false;
+  if (description.kernel != KernelType::wendland_c2) return false;  // its sweeps are compiled for one kernel
   if (viscosity->solve == ViscositySolve::implicit) return true;
-  const double h = description.supportRadius();
+  const double h = description.supportRadius() * radiusBounds(description).smallest;
   const double viscous = 0.045 * h * h * description.rest_density / largestPossibleViscosity(description);
   return viscous < 0.4 * description.spacing / speed_of_sound;
+}
+
+/// TimeStepLimits::contact: 0.1 where a touching pair is as stiff as with the default settings, shorter as the frequency of a
+/// harder one, w^2 = 2 D* (n1 - n2)/(contact distance/dx)^3 (c0/dx)^2 at first touch; 0 without the effect.
+inline double contactLimit(const std::optional<RepulsionSettings>& repulsion) {
+  if (!repulsion) return 0.0;
+  const auto stiffness = [](const RepulsionSettings& r) {
+    return r.strength * (r.power_1 - r.power_2) / (r.contact_distance * r.contact_distance * r.contact_distance);
+  };
+  const double harder = stiffness(*repulsion) / stiffness(RepulsionSettings{});
+  return harder > 1.0 ? 0.1 / std::sqrt(harder) : 0.1;
 }
 
 inline TimeStepLimits timeStepLimits(const WorldDescription& description, double speed_of_sound) {
@@ -85,10 +110,16 @@ inline TimeStepLimits timeStepLimits(const WorldDescription& description, double
   limits.speed_of_sound = speed_of_sound;
   limits.scene = description.max_dt;
   const double viscosity = largestViscosity(description);
-  const double h = description.supportRadius();
+  const double h = description.supportRadius() * radiusBounds(description).smallest;
   if (viscosity > 0.0) limits.viscous = 0.045 * h * h * description.rest_density / viscosity;
   if (description.model == Model::literal) {
     limits.scene = std::min(limits.scene, literalTimeStep(description, speed_of_sound));
+    return limits;
+  }
+  limits.contact = contactLimit(description.effects.repulsion);
+  if (const auto& tension = description.effects.surface_tension; tension && tension->coefficient > 0.0) {
+    const double spacing3 = description.particleVolume();
+    limits.capillary = 0.25 * std::sqrt(description.rest_density * spacing3 / (2.0 * std::numbers::pi * tension->coefficient));
   }
   return limits;
 }
@@ -173,6 +204,9 @@ WallConstants<Real> wallConstants(const WorldDescription& description, const Res
   if (description.effects.viscosity) {
     constants.viscosity_factor = static_cast<Real>(lattice.viscosity_factor);
     constants.viscosity = static_cast<Real>(description.effects.viscosity->viscosity);
+  }
+  if (const auto& adhesion = description.effects.adhesion) {
+    constants.adhesion = {static_cast<Real>(adhesion->acceleration), static_cast<Real>(description.spacing), constants.h};
   }
   return constants;
 }

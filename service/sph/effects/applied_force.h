@@ -81,6 +81,10 @@ class AppliedForce {
 
   bool empty() const { return sources_.empty(); }
 
+  bool canHold(const AppliedForce& other) const { return other.sources_.size() <= max_sources_; }
+  /// Takes over the other's sources; requires canHold().
+  void adopt(const AppliedForce& other) { sources_.assign(other.sources_.begin(), other.sources_.end()); }
+
  private:
   bool addOne(const SetForce& source, const CellGrid<Real>& grid, const Particles<Real>& p, Real* acceleration) const {
     double total = 0.0;

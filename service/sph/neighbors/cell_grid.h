@@ -1,7 +1,8 @@
-// A uniform grid of cells of one support radius, rebuilt every step by a stable counting sort of the particles.
+// A uniform grid of cells as wide as the search reaches, rebuilt every step by a stable counting sort of the particles.
 //
 // The grid covers the particles only, so far empty space costs nothing. Cells are anchored at the coordinate origin (at the
 // domain's corner along a periodic axis): the order of the particles does not depend on where the bounding box happens to be.
+// Along periodic axes cells are as wide as the search may ever reach.
 #pragma once
 
 #include <algorithm>
@@ -42,16 +43,17 @@ class CellGrid {
 
   CellGrid() = default;
   /// `lower`, `upper`: the domain in support radii; particles may also stand up to `margin` outside of it (wounds' throats).
+  /// `largest_cell` is the largest that cover() will be given.
   CellGrid(std::uint32_t capacity, const std::array<double, 3>& lower, const std::array<double, 3>& upper,
-           const std::array<bool, 3>& periodic, double margin, int shares)
+           const std::array<bool, 3>& periodic, double margin, int shares, double largest_cell = 1.0)
       : cell_of_{capacity, 23} {
     view_.periodic = periodic;
     std::size_t most = 1;
     for (std::size_t a = 0; a < 3; ++a) {
       const double length = upper[a] - lower[a];
       if (periodic[a]) {
-        const int cells = std::max(3, static_cast<int>(length));
-        origin_[a] = static_cast<Real>(lower[a]);
+        const int cells = std::max(3, static_cast<int>(length / largest_cell));
+        corner_[a] = static_cast<Real>(lower[a]);
         scale_[a] = static_cast<Real>(cells / length);
         view_.period[a] = static_cast<Real>(length);
         view_.size[a] = cells + 2;
@@ -77,18 +79,19 @@ class CellGrid {
   }
   std::uint32_t* cells() { return cell_of_.data(); }
 
-  /// Lays the grid over the bounds. Particles beyond the margin fall into the outermost cells: right, though slow, for the few
-  /// unseen ones of a deep throat.
-  void cover(const Bounds<Real>& bounds) {
+  /// Lays the grid over the bounds, with cells of at least `cell` >= 1 support radii. Particles beyond the margin fall into the
+  /// outermost cells: right, though slow, for the few unseen ones of a deep throat.
+  void cover(const Bounds<Real>& bounds, Real cell = Real(1)) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (view_.periodic[a]) continue;
+      scale_[a] = Real(1) / cell;
       if (bounds.lower[a] > bounds.upper[a]) {
         origin_[a] = Real(0);
         view_.size[a] = 3;
         continue;
       }
-      origin_[a] = std::floor(std::max(bounds.lower[a], lowest_[a]));
-      view_.size[a] = std::max(0, static_cast<int>(std::min(bounds.upper[a], highest_[a]) - origin_[a])) + 3;
+      origin_[a] = std::floor(std::max(bounds.lower[a], lowest_[a]) * scale_[a]);
+      view_.size[a] = std::max(0, static_cast<int>(std::min(bounds.upper[a], highest_[a]) * scale_[a] - origin_[a])) + 3;
     }
   }
 
@@ -100,7 +103,7 @@ class CellGrid {
   }
   /// 1-based cell coordinate along an axis, clamped to the grid.
   int coordinate(std::size_t axis, Real value) const {
-    const int c = static_cast<int>(std::clamp((value - origin_[axis]) * scale_[axis], Real(0), Real(1e8))) + 1;
+    const int c = static_cast<int>(std::clamp((value - corner_[axis]) * scale_[axis] - origin_[axis], Real(0), Real(1e8))) + 1;
     return std::clamp(c, 1, view_.size[axis] - 2);
   }
 
@@ -158,7 +161,8 @@ class CellGrid {
 
  private:
   GridView<Real> view_;
-  std::array<Real, 3> origin_{};
+  std::array<Real, 3> corner_{};  ///< what cells are counted from: the domain's corner where periodic, else the origin
+  std::array<Real, 3> origin_{};  ///< the first cell of the bounds, counted from there
   std::array<Real, 3> scale_{Real(1), Real(1), Real(1)};  ///< cells per support radius, <= 1
   std::array<Real, 3> lowest_{}, highest_{};              ///< what the grid covers at most, in support radii
   AlignedArray<std::uint32_t> start_;

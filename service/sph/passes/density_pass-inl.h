@@ -21,8 +21,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 
-/// kRadius: every particle has a support radius of its own (34). A pair then weighs (W(h_i) + W(h_j))/2, and the lists reach as
-/// far as the largest radius.
+/// kRadius: every particle has a support radius of its own (34). A pair then weighs (W(h_i) + W(h_j))/2, each W with its
+/// lattice's mass factor, and the lists reach as far as the largest radius.
 template <class L, template <class> class KernelOf, bool kPeriodic, bool kTissue, bool kRadius>
 class DensityPass {
  public:
@@ -244,7 +244,6 @@ class DensityPass {
 
   void finish(std::uint32_t i, Real weight) const {
     Real density = job_.mass_weight * weight;
-    if constexpr (kRadius) density *= job_.density_factor[i];
     if constexpr (kTissue) density += job_.rest_density * job_.share[i];
     const Real inverse = Real(1) / density;
     const Real pressure = std::max(job_.pressure_floor, job_.background + job_.stiffness * (density - job_.rest_density));
@@ -277,7 +276,7 @@ class DensityPass {
     } else {
       const Real* own = job_.record + static_cast<std::size_t>(i) * stride_;
       const V own_inverse2 = L::set(own[kRecordInverseRadius2]);
-      const V own_factor = L::set(own[kRecordRadiusFactor] / own[kRecordInverseRadius2]);  // (h/h_i)^3
+      const V own_factor = L::set(own[kRecordRadiusFactor] / own[kRecordInverseRadius2]);  // (h/h_i)^3, calibrated
       for (int v = 0; v < vectors; ++v, list += kWidth) {
         const V distance2 = L::load(q2 + v * kWidth);
         V field[4];

@@ -11,6 +11,7 @@
 
 #include "service/sph/neighbors/grid_view.h"
 #include "service/sph/passes/lanes-inl.h"
+#include "service/sph/passes/pass_jobs.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
@@ -21,6 +22,14 @@ HWY_INLINE typename L::V distance2(typename L::V dx, typename L::V dy, typename 
   return L::mulAdd(dz, dz, L::mulAdd(dy, dy, dx * dx));
 }
 
+/// Who gets the neighbours, as a plain function: the search is compiled once, not for every set of effects.
+template <class Real>
+struct ChunkSink {
+  void (*take)(void* taker, const Real* q2, const std::uint32_t* list, int vectors);
+  void* taker;
+  void operator()(const Real* q2, const std::uint32_t* list, int vectors) const { take(taker, q2, list, vectors); }
+};
+
 template <class L, bool kPeriodic>
 class DirectSearch {
  public:
@@ -30,8 +39,8 @@ class DirectSearch {
   /// Calls consume(squared distances, record offsets, vectors) with the neighbours of particle i, padded to whole vectors with
   /// q2 = reach2 and the far dummy, record `count`. `job` has x, y, z, reach2 and count.
   template <class Job, class Consume>
-  static void run(const Job& job, const NeighborRun<Real>* runs, int run_count, std::uint32_t i, std::uint32_t stride,
-                  const Consume& consume) {
+  HWY_NOINLINE static void run(const Job& job, const NeighborRun<Real>* runs, int run_count, std::uint32_t i,
+                               std::uint32_t stride, const Consume& consume) {
     alignas(64) Real q2[kChunk + 2 * kWidth];
     alignas(64) std::uint32_t ids[kChunk + 2 * kWidth];
     int count = 0;
@@ -63,6 +72,15 @@ class DirectSearch {
     L::storeUnaligned(L::set(job.reach2), q2 + count);
     L::storeIds(L::setIds(job.count * stride), ids + count);
     consume(q2, ids, (count + kWidth - 1) / kWidth);
+  }
+
+  /// The same for a particle of which only the grid's row is known.
+  HWY_NOINLINE static void runInRow(const SweepJob<Real>& job, int row, std::uint32_t i, const ChunkSink<Real>& consume) {
+    int cx = 1;
+    while (job.grid.start[job.grid.cell(row, cx) + 1] <= i) ++cx;
+    NeighborRun<Real> runs[GridView<Real>::kMaxRuns];
+    const int run_count = job.grid.template neighborRuns<kPeriodic>(row, cx, runs);
+    run(job, runs, run_count, i, static_cast<std::uint32_t>(4 * job.groups), consume);
   }
 
  private:

@@ -16,8 +16,9 @@ HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 
 /// Body: Job (a SweepJob); kGroups, the record groups that it reads of each neighbour (from the first on; others by gatherGroup);
-/// a constructor from (job, i, own record); pair(p); finish(job, i).
-/// kRadius: the pair's gradient is that of (W(h_i) + W(h_j))/2, and kGroups covers the radius fields.
+/// a constructor from (job, i, own record); pair(p); finish(job, i). Where it has needed() and that is false, its neighbours are
+/// not walked.
+/// kRadius: the pair's gradient is that of (W(h_i) + W(h_j))/2 with their mass factors, and kGroups covers the radius fields.
 template <class L, template <class> class KernelOf, bool kPeriodic, bool kRadius, class Body>
 class ListSweep {
  public:
@@ -42,10 +43,17 @@ class ListSweep {
  private:
   static constexpr int kGroups = kRadius && Body::kGroups < 3 ? 3 : Body::kGroups;
 
+  HWY_INLINE static bool isNeeded(const Body& body) {
+    if constexpr (requires { body.needed(); })
+      return body.needed();
+    else
+      return true;
+  }
+
   static void particle(const Job& job, std::uint32_t i, const std::uint32_t* list, int blocks) {
     const Real* own = job.record + static_cast<std::size_t>(i) * static_cast<std::uint32_t>(4 * job.groups);
     Body body{job, i, own};
-    addBlocks(job, own, list, blocks, body);
+    if (isNeeded(body)) addBlocks(job, own, list, blocks, body);
     body.finish(job, i);
   }
 
@@ -84,18 +92,26 @@ class ListSweep {
     return L::subMul(d, image, L::set(period));
   }
 
+  struct Apart {
+    const Job* job;
+    const Real* own;
+    Body* body;
+  };
+  static void addChunk(void* taker, const Real*, const std::uint32_t* list, int blocks) {
+    const Apart& apart = *static_cast<const Apart*>(taker);
+    addBlocks(*apart.job, apart.own, list, blocks, *apart.body);
+  }
+
   /// A particle without a list: its neighbours come straight from the cells.
   static void particleWithoutList(const Job& job, std::uint32_t i, int row) {
-    const std::uint32_t stride = static_cast<std::uint32_t>(4 * job.groups);
-    const Real* own = job.record + static_cast<std::size_t>(i) * stride;
+    const Real* own = job.record + static_cast<std::size_t>(i) * static_cast<std::uint32_t>(4 * job.groups);
     Body body{job, i, own};
-    int cx = 1;
-    while (job.grid.start[job.grid.cell(row, cx) + 1] <= i) ++cx;
-    NeighborRun<Real> runs[GridView<Real>::kMaxRuns];
-    const int run_count = job.grid.template neighborRuns<kPeriodic>(row, cx, runs);
-    DirectSearch<L, kPeriodic>::run(job, runs, run_count, i, stride, [&](const Real*, const std::uint32_t* list, int blocks) {
-      addBlocks(job, own, list, blocks, body);
-    });
+    if (!isNeeded(body)) {
+      body.finish(job, i);
+      return;
+    }
+    Apart apart{&job, own, &body};
+    DirectSearch<L, kPeriodic>::runInRow(job, row, i, {&addChunk, &apart});
     body.finish(job, i);
   }
 };

@@ -6,6 +6,7 @@
 #define BLEEDSIM_SPH_PASSES_MAKE_SWEEPS_INL_H_
 #endif
 
+#include "service/sph/effects/tension_sweeps-inl.h"
 #include "service/sph/effects/viscous_product-inl.h"
 #include "service/sph/passes/list_sweep-inl.h"
 #include "service/sph/passes/sweep_table.h"
@@ -19,6 +20,8 @@ constexpr SweepTable<typename L::Scalar> makeSweeps() {
   table.viscous_product = &ListSweep<L, WendlandC2, kPeriodic, kRadius, ViscousProduct<L, true>>::run;
   if constexpr (!kRadius)
     table.uniform_viscous_product = &ListSweep<L, WendlandC2, kPeriodic, false, ViscousProduct<L, false>>::run;
+  table.normals = &ListSweep<L, WendlandC2, kPeriodic, kRadius, NormalBody<L>>::run;
+  table.curvature = &ListSweep<L, WendlandC2, kPeriodic, kRadius, CurvatureBody<L, kRadius>>::run;
   return table;
 }
 

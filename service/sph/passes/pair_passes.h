@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "service/sph/aligned_array.h"
+#include "service/sph/effects/core_radius.h"
 #include "service/sph/executor.h"
 #include "service/sph/neighbors/cell_grid.h"
 #include "service/sph/particles.h"
@@ -40,15 +43,17 @@ struct PairLayout {
 template <class Real>
 class PairPasses {
  public:
-  /// `table` must hold the layout's set of effects: createWorld checks it.
+  /// `table` must hold the layout's set of effects: createWorld checks it. `support_ratio` is that of the largest radius;
+  /// `lattice` comes with (34).
   PairPasses(const PassTable<Real>& table, const PairLayout& layout, const PairConstants<Real>& constants, std::uint32_t capacity,
-             double support_ratio, int shares)
+             double support_ratio, int shares, const std::optional<LatticeFactors<Real>>& lattice = std::nullopt)
       : density_function_{table.density[layout.tissue ? 1 : 0][layout.set.core_radius ? 1 : 0]},
         force_function_{table.force[layout.set.index()]},
         inviscid_function_{table.force[withoutViscosity(layout.set).index()]},
         symmetric_{layout.set.pressure == PressureTerm::symmetric},
         groups_{std::max(layout.least_groups, recordGroups(layout.set, layout.tension))},
         constants_{constants},
+        lattice_{lattice},
         record_{(std::size_t{capacity} + 1) * static_cast<std::size_t>(4 * groups_), 37},
         density_{capacity, 41},
         acceleration_{std::size_t{capacity} * 4, 43},
@@ -75,13 +80,11 @@ class PairPasses {
       record[kRecordVz] = p.vz[i];
     }
     if (groups_ > 2) {
-      record[kRecordInverseViscosity] = p.inverse_viscosity.empty() ? Real(1) : p.inverse_viscosity[i];
+      packRadius(record, p.radius.empty() ? Real(1) : p.radius[i]);
+      setInverseViscosity(i, p.inverse_viscosity.empty() ? Real(1) : p.inverse_viscosity[i]);
       record[kRecordPlatelet] = p.platelet.empty() ? Real(0) : p.platelet[i];
-      const Real radius = p.radius.empty() ? Real(1) : p.radius[i];
-      const Real inverse2 = Real(1) / (radius * radius);
-      record[kRecordInverseRadius2] = inverse2;
-      record[kRecordRadiusFactor] = inverse2 * inverse2 / radius;
     }
+    if (groups_ > 3) std::fill_n(record + kRecordNormalX, 4, Real(0));
   }
 
   /// Densities, pressures and neighbour lists of the `count` sorted and packed particles; returns how many took the slow path.
@@ -109,8 +112,7 @@ class PairPasses {
       job.pressure_floor = constants_.pressure_floor;
       job.pressure_scale = constants_.pressure_scale;
       job.symmetric = symmetric_;
-      job.reach2 = reach2_;
-      job.density_factor = density_factor_;
+      job.reach2 = reach_ * reach_;
       job.lists = &lists;
       job.list_at = list_at_.data();
       job.blocks = blocks_.data();
@@ -140,8 +142,8 @@ class PairPasses {
     ForceJob<Real> job;
     job.viscosity_scale = constants_.viscosity_scale;
     job.platelet_scale = constants_.platelet_scale;
-    job.repulsion_scale = constants_.repulsion_scale;
-    job.repulsion_contact = constants_.repulsion_contact;
+    job.repulsion_scale = growth_ * growth_ * growth_ * constants_.repulsion_scale;
+    job.repulsion_contact = growth_ * constants_.repulsion_contact;
     job.repulsion_damping = constants_.repulsion_damping;
     std::copy_n(constants_.repulsion_powers, 2, job.repulsion_powers);
     job.acceleration = acceleration_.data();
@@ -165,11 +167,27 @@ class PairPasses {
       own.entries = lists_[static_cast<std::size_t>(share)].entries;
       own.list_at = list_at_.data();
       own.blocks = blocks_.data();
-      own.reach2 = reach2_;
+      own.reach2 = reach_ * reach_;
       own.groups = groups_;
       function(own);
     });
   }
+
+  /// The one place where a record gets its 1/mu, 1/(Pa s), with the lattice's factor on mu at the particle's own radius; the set
+  /// of effects must have the third group.
+  void setInverseViscosity(std::size_t i, Real inverse_viscosity) {
+    record(i)[kRecordInverseViscosity] = lattice_ ? inverse_viscosity / viscosityFactor(i) : inverse_viscosity;
+  }
+  /// The lattice's factor on mu at particle i's own radius, over that at h.
+  Real viscosityFactor(std::size_t i) const {
+    if (!lattice_) return Real(1);
+    const Real* own = record_.data() + i * static_cast<std::size_t>(4 * groups_);
+    return lattice_->viscosity(Real(1) / std::sqrt(own[kRecordInverseRadius2]));
+  }
+
+  /// How far the lists reach, over h: at least 1 and at least the largest radius that pack() will see.
+  Real reach() const { return reach_; }
+  void setReach(Real reach) { reach_ = reach; }
 
   /// The packed record of particle i (RecordField), for stages that write into it.
   Real* record(std::size_t i) { return record_.data() + i * static_cast<std::size_t>(4 * groups_); }
@@ -187,6 +205,14 @@ class PairPasses {
   const Real* acceleration() const { return acceleration_.data(); }
   const Real* density() const { return density_.data(); }
   void moveDensity(std::size_t to, std::size_t from) { density_[to] = density_[from]; }
+  /// The contact distance of repulsion over its own, 0 to 1. Contacts stay as stiff as they are: force over distance goes with
+  /// the strength over the distance's cube.
+  void setContactGrowth(Real growth) { growth_ = growth; }
+  /// Takes the densities and accelerations of passes of the same capacity.
+  void adopt(PairPasses& from) {
+    density_.swap(from.density_);
+    acceleration_.swap(from.acceleration_);
+  }
   /// Of the equation of state, Pa.
   Real pressureAt(Real density) const {
     return std::max(constants_.pressure_floor,
@@ -197,6 +223,12 @@ class PairPasses {
   static PairSet withoutViscosity(PairSet set) {
     set.viscosity = ViscosityTerm::none;
     return set;
+  }
+
+  void packRadius(Real* record, Real radius) const {
+    const Real inverse2 = Real(1) / (radius * radius);
+    record[kRecordInverseRadius2] = inverse2;
+    record[kRecordRadiusFactor] = inverse2 * inverse2 / radius * (lattice_ ? lattice_->mass(radius) : Real(1));
   }
 
   /// The far dummy touches nothing and keeps every division defined.
@@ -212,6 +244,8 @@ class PairPasses {
   bool symmetric_;
   int groups_;
   PairConstants<Real> constants_;
+  Real growth_ = 1;  // of the contact distance
+  std::optional<LatticeFactors<Real>> lattice_;  // with (34)
   AlignedArray<Real> record_;
   AlignedArray<Real> density_;       // kg/m^3
   AlignedArray<Real> acceleration_;  // 4 per particle, m/s^2
@@ -220,8 +254,7 @@ class PairPasses {
   std::vector<AlignedArray<std::uint32_t>> entries_;
   std::vector<NeighborLists> lists_;
   std::vector<std::uint64_t> overflowed_;
-  Real reach2_ = 1;                       // squared search radius / h^2
-  const Real* density_factor_ = nullptr;  // with (34)
+  Real reach_ = 1;
 };
 
 }  // namespace bleedsim::sph

@@ -36,7 +36,6 @@ struct DensityJob {
   Real pressure_floor = 0;               ///< Pa: 0, or none in the literal model
   Real pressure_scale = 0;               ///< makes the record's pressure term, kRecordPressure
   bool symmetric = false;                ///< kRecordPressure is for (17)
-  const Real* density_factor = nullptr;  ///< with (34): the lattice's factor at each particle's own radius
 
   NeighborLists* lists = nullptr;
   std::uint32_t* list_at = nullptr;  ///< per particle, in the share's entries

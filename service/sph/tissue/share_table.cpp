@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "service/sph/rest_lattice.h"
+
 namespace bleedsim::sph {
 namespace {
 
@@ -43,7 +45,8 @@ double wallIntegral(const SmoothingKernel& kernel, double curvature, double d) {
 Share<double> planeShare(const ShareSettings& settings, double d) {
   const double h = settings.kernel.h;
   const double dx = settings.spacing;
-  const double softening = 0.01 * h * h;
+  const double softening_radius = settings.softening_radius.value_or(h);
+  const double softening = 0.01 * softening_radius * softening_radius;
   const double volume_per_area = settings.particle_mass / (settings.rest_density * dx * dx);
   Share<double> sum;
   const int first = std::max(0, static_cast<int>(std::floor((-h - d) / dx - 0.5)));
@@ -92,6 +95,25 @@ ShareTable<Real>::ShareTable(const ShareSettings& settings, double curvature)
   }
 }
 
+template <class Real>
+ShareTables<Real>::ShareTables(const ShareSettings& settings, double curvature) {
+  if (!settings.radii.vary()) {
+    tables_.emplace_back(settings, curvature);
+    return;
+  }
+  const double calibrated_at_h = calibrateRestLattice(settings.kernel, settings.spacing, settings.rest_density).particle_mass;
+  for (const double radius : radiusNodes(settings.radii)) {
+    ShareSettings own = settings;
+    own.kernel.h *= radius;
+    own.softening_radius = settings.kernel.h;
+    const double calibrated = calibrateRestLattice(own.kernel, own.spacing, own.rest_density).particle_mass;
+    own.particle_mass *= calibrated / calibrated_at_h;
+    tables_.emplace_back(own, curvature);
+  }
+}
+
+template class ShareTables<float>;
+template class ShareTables<double>;
 template class ShareTable<float>;
 template class ShareTable<double>;
 

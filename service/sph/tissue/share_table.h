@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "service/sph/radius_nodes.h"
 #include "service/sph/smoothing_kernel.h"
 
 namespace bleedsim::sph {
@@ -14,9 +16,11 @@ namespace bleedsim::sph {
 /// The lattice that blood at rest is measured against.
 struct ShareSettings {
   SmoothingKernel kernel;
-  double spacing = 0.0;        ///< dx, m
-  double particle_mass = 0.0;  ///< kg, calibrated (rest_lattice.h)
-  double rest_density = 0.0;   ///< kg/m^3
+  double spacing = 0.0;                      ///< dx, m
+  double particle_mass = 0.0;                ///< kg, calibrated (rest_lattice.h)
+  double rest_density = 0.0;                 ///< kg/m^3
+  RadiusBounds radii{};                      ///< of particles' own support radii, over kernel.h
+  std::optional<double> softening_radius{};  ///< whose 0.01 h^2 softens the friction, m; without it kernel.h
 };
 
 template <class Real>
@@ -56,12 +60,39 @@ class ShareTable {
   std::vector<Share<Real>> nodes_;
 };
 
+/// ShareTable for particles with support radii of their own (34): one at each of the radius' nodes, calibrated there, linear
+/// between. A single table where radii do not vary.
+template <class Real>
+class ShareTables {
+ public:
+  ShareTables(const ShareSettings& settings, double curvature);
+
+  Share<Real> at(Real d, const RadiusPlace<Real>& own = {}) const {
+    if (tables_.size() == 1) return tables_[0].at(d);
+    const Share<Real> a = tables_[own.node].at(d);
+    if (own.part == Real(0)) return a;
+    const Share<Real> b = tables_[own.node + 1].at(d);
+    return {a.share + own.part * (b.share - a.share), a.slope + own.part * (b.slope - a.slope),
+            a.friction + own.part * (b.friction - a.friction),
+            a.friction_depth + own.part * (b.friction_depth - a.friction_depth)};
+  }
+  Real full(const RadiusPlace<Real>& own = {}) const {
+    if (tables_.size() == 1) return tables_[0].full();
+    return tables_[own.node].full() + own.part * (tables_[own.node + 1].full() - tables_[own.node].full());
+  }
+
+ private:
+  std::vector<ShareTable<Real>> tables_;
+};
+
 /// The same four numbers straight from their sums over a plane's layers, in double precision.
 Share<double> planeShare(const ShareSettings& settings, double d);
 
 /// int W over the wall behind a sphere, divided by that behind its tangent plane, clamped to 0.5..2.
 double curvedRatio(const SmoothingKernel& kernel, double curvature, double d);
 
+extern template class ShareTables<float>;
+extern template class ShareTables<double>;
 extern template class ShareTable<float>;
 extern template class ShareTable<double>;
 

@@ -68,7 +68,8 @@ Result<TissueField<Real>> TissueField<Real>::create(const std::vector<TissueDesc
   }
   TissueField field;
   if (tissue.empty()) return field;
-  field.reach_ = static_cast<Real>(settings.kernel.h);
+  field.reach_ = static_cast<Real>(settings.kernel.h * settings.radii.largest);
+  field.radii_ = RadiusScale<Real>{settings.radii};
   field.spring_reach_ = static_cast<Real>(0.5 * settings.spacing);
   field.spring_scale_ = static_cast<Real>(1.0 / (settings.spacing * settings.spacing));
   field.gap_ = static_cast<Real>(kProjectionGap * settings.spacing);
@@ -84,7 +85,7 @@ Result<TissueField<Real>> TissueField<Real>::create(const std::vector<TissueDesc
       }
       for (const PlaneShape& face : containerFaces(*box)) field.planes_.push_back({PlaneSurface<Real>{face}, grip});
     } else if (const auto* bowl = std::get_if<BowlShape>(&one.shape)) {
-      field.bowls_.push_back({BowlSurface<Real>{*bowl}, grip, ShareTable<Real>{settings, 1.0 / bowl->sphere_radius}});
+      field.bowls_.push_back({BowlSurface<Real>{*bowl}, grip, ShareTables<Real>{settings, 1.0 / bowl->sphere_radius}});
     }
   }
   return field;
@@ -96,15 +97,15 @@ Real TissueField<Real>::frictionOf(const Share<Real>& share, Real distance) cons
 }
 
 template <class Real>
-Real TissueField<Real>::scaledFriction(Real share, Real distance) const {
-  const Share<Real> plane = plane_table_->at(distance);
+Real TissueField<Real>::scaledFriction(Real share, Real distance, const Own& own) const {
+  const Share<Real> plane = plane_table_->at(distance, own);
   if (!(plane.share > 0)) return 0;
   return frictionOf(plane, distance) * std::min(share / plane.share, Real{2});
 }
 
 template <class Real>
-void TissueField<Real>::addPlane(const Plane& plane, Real distance, WallTerms<Real>& terms) const {
-  const Share<Real> share = plane_table_->at(distance);
+void TissueField<Real>::addPlane(const Plane& plane, Real distance, const Own& own, WallTerms<Real>& terms) const {
+  const Share<Real> share = plane_table_->at(distance, own);
   WallTerm<Real> term;
   term.distance = distance;
   term.normal = plane.surface.normal();
@@ -117,17 +118,19 @@ void TissueField<Real>::addPlane(const Plane& plane, Real distance, WallTerms<Re
 // A block is what two facing planes leave of each other, N_lower + N_upper - 1 along an axis, and of this the product over the
 // axes, with N = L/full: the share of a part of space, not of the lattice's rounding of it.
 template <class Real>
-void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Real z, WallTerms<Real>& terms) const {
-  const ShareTable<Real>& table = *plane_table_;
+void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Real z, const Own& own,
+                                    WallTerms<Real>& terms) const {
+  const ShareTables<Real>& table = *plane_table_;
+  const Real full = table.full(own);
   const std::array<Real, 3> point{x, y, z};
   std::array<Real, 3> filled{};
   std::array<Real, 3> slope{};
   for (int axis = 0; axis < 3; ++axis) {
-    const Share<Real> below = table.at(obstacle.surface.lower(axis) - point[axis]);
-    const Share<Real> above = table.at(point[axis] - obstacle.surface.upper(axis));
-    const Real most = std::max(below.share, above.share) / table.full();  // 1 where the block is thick: no rounding is left over
-    filled[axis] = (most - 1) + std::min(below.share, above.share) / table.full();
-    slope[axis] = (above.slope - below.slope) / table.full();
+    const Share<Real> below = table.at(obstacle.surface.lower(axis) - point[axis], own);
+    const Share<Real> above = table.at(point[axis] - obstacle.surface.upper(axis), own);
+    const Real most = std::max(below.share, above.share) / full;  // 1 where the block is thick: no rounding is left over
+    filled[axis] = (most - 1) + std::min(below.share, above.share) / full;
+    slope[axis] = (above.slope - below.slope) / full;
     if (filled[axis] > 0) continue;
     filled[axis] = 0;
     slope[axis] = 0;
@@ -136,23 +139,23 @@ void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Re
   WallTerm<Real> term;
   term.distance = nearest.value;
   term.normal = nearest.normal;
-  term.share = table.full() * filled[0] * filled[1] * filled[2];
-  term.gradient = {table.full() * slope[0] * filled[1] * filled[2], table.full() * filled[0] * slope[1] * filled[2],
-                   table.full() * filled[0] * filled[1] * slope[2]};
-  term.friction = scaledFriction(term.share, nearest.value) * obstacle.grip;
+  term.share = full * filled[0] * filled[1] * filled[2];
+  term.gradient = {full * slope[0] * filled[1] * filled[2], full * filled[0] * slope[1] * filled[2],
+                   full * filled[0] * filled[1] * slope[2]};
+  term.friction = scaledFriction(term.share, nearest.value, own) * obstacle.grip;
   terms.add(term);
 }
 
 // The tissue is behind the plane and outside the sphere at once. w changes along the sphere: grad c = -(z - c n)/r, and
 // d asin(c)/dc = 1/sqrt(1 - c^2) makes grad w a unit vector across n, over r.
 template <class Real>
-void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, WallTerms<Real>& terms) const {
+void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, const Own& own, WallTerms<Real>& terms) const {
   const auto part = bowl.surface.parts(x, y, z);
   if (!(part.plane < reach_ && part.sphere < reach_)) return;
-  const ShareTable<Real>& table = *plane_table_;
-  const Real full = table.full();
-  const Share<Real> plane = table.at(part.plane);
-  const Share<Real> hollow = bowl.table.at(part.sphere);
+  const ShareTables<Real>& table = *plane_table_;
+  const Real full = table.full(own);
+  const Share<Real> plane = table.at(part.plane, own);
+  const Share<Real> hollow = bowl.table.at(part.sphere, own);
   const std::array<Real, 3>& n = part.sphere_normal;
   const SignedDistance<Real> nearest = bowl.surface.at(x, y, z, part);
   WallTerm<Real> term;
@@ -178,7 +181,7 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, WallTe
       term.gradient[2] += factor;
     }
   }
-  term.friction = scaledFriction(term.share, nearest.value) * bowl.grip;
+  term.friction = scaledFriction(term.share, nearest.value, own) * bowl.grip;
   terms.add(term);
 }
 
@@ -198,17 +201,18 @@ bool TissueField<Real>::touches(Real x, Real y, Real z) const {
 }
 
 template <class Real>
-bool TissueField<Real>::sample(Real x, Real y, Real z, WallSample<Real>& out) const {
+bool TissueField<Real>::sample(Real x, Real y, Real z, WallSample<Real>& out, Real radius) const {
   if (!touches(x, y, z)) return false;  // before the list of terms is made: most particles touch nothing
   WallTerms<Real> terms;
+  const Own own = radii_.at(radius);
   for (const Plane& plane : planes_) {
     const Real distance = plane.surface.value(x, y, z);
-    if (distance < reach_) addPlane(plane, distance, terms);
+    if (distance < reach_) addPlane(plane, distance, own, terms);
   }
   for (const Obstacle& obstacle : obstacles_) {
-    if (obstacle.surface.faceDistance(x, y, z) < reach_) addObstacle(obstacle, x, y, z, terms);
+    if (obstacle.surface.faceDistance(x, y, z) < reach_) addObstacle(obstacle, x, y, z, own, terms);
   }
-  for (const Bowl& bowl : bowls_) addBowl(bowl, x, y, z, terms);
+  for (const Bowl& bowl : bowls_) addBowl(bowl, x, y, z, own, terms);
 
   const CombinedShare<Real> combined = combineShares(terms);
   out = {};

@@ -43,8 +43,9 @@ class TissueField {
 
   bool empty() const { return planes_.empty() && obstacles_.empty() && bowls_.empty(); }
 
-  /// False, and `out` untouched, if no wall is within h (a NaN position is within reach of none). Points inside tissue are.
-  bool sample(Real x, Real y, Real z, WallSample<Real>& out) const;
+  /// False, and `out` untouched, if no wall is within the largest support radius (a NaN position is within reach of none). Points
+  /// inside tissue are. `radius`: the particle's own support radius over h.
+  bool sample(Real x, Real y, Real z, WallSample<Real>& out, Real radius = Real(1)) const;
 
   /// The smallest phi of all walls, m; infinity without tissue.
   Real distance(Real x, Real y, Real z) const;
@@ -69,23 +70,25 @@ class TissueField {
   struct Bowl {
     BowlSurface<Real> surface;
     Real grip;
-    ShareTable<Real> table;  ///< of the hollow
+    ShareTables<Real> table;  ///< of the hollow
   };
 
   bool touches(Real x, Real y, Real z) const;
-  void addPlane(const Plane& plane, Real distance, WallTerms<Real>& terms) const;
-  void addObstacle(const Obstacle& obstacle, Real x, Real y, Real z, WallTerms<Real>& terms) const;
-  void addBowl(const Bowl& bowl, Real x, Real y, Real z, WallTerms<Real>& terms) const;
+  using Own = RadiusPlace<Real>;
+  void addPlane(const Plane& plane, Real distance, const Own& own, WallTerms<Real>& terms) const;
+  void addObstacle(const Obstacle& obstacle, Real x, Real y, Real z, const Own& own, WallTerms<Real>& terms) const;
+  void addBowl(const Bowl& bowl, Real x, Real y, Real z, const Own& own, WallTerms<Real>& terms) const;
   /// F0 + F1/max(d, dx/4): walls.md's extrapolation of the velocity into the wall.
   Real frictionOf(const Share<Real>& share, Real distance) const;
   /// The friction of a plane at phi in the proportion of the shares: what an edge leaves of it, or a hollow adds.
-  Real scaledFriction(Real share, Real distance) const;
+  Real scaledFriction(Real share, Real distance, const Own& own) const;
 
-  Real reach_ = 0;         ///< h
+  Real reach_ = 0;         ///< the largest support radius, m
   Real spring_reach_ = 0;  ///< dx/2
   Real spring_scale_ = 0;  ///< 1/dx^2
   Real gap_ = 0;
-  std::optional<ShareTable<Real>> plane_table_;  ///< none without tissue
+  RadiusScale<Real> radii_;
+  std::optional<ShareTables<Real>> plane_table_;  ///< none without tissue
   std::vector<Plane> planes_;
   std::vector<Obstacle> obstacles_;
   std::vector<Bowl> bowls_;

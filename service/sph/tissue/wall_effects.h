@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "service/sph/aligned_array.h"
+#include "service/sph/effects/adhesion.h"
 #include "service/sph/executor.h"
 #include "service/sph/neighbors/cell_grid.h"
 #include "service/sph/particles.h"
@@ -22,6 +23,7 @@ struct WallConstants {
   Real viscosity_factor = 0;  ///< rest-lattice factor; 0 without viscosity
   Real viscosity = 0;         ///< Pa s, where particles carry none
   bool pressure = false;
+  Adhesion<Real> adhesion;  ///< of acceleration 0 without the effect
 };
 
 template <class Real>
@@ -60,16 +62,28 @@ class WallEffects {
         const Real x = p.x[i] * constants_.h;
         const Real y = p.y[i] * constants_.h;
         const Real z = p.z[i] * constants_.h;
-        if (!field_.sample(x, y, z, entry.wall)) continue;
-        if (!wounds.empty())
-          closeBy(Real(1) - static_cast<Real>(wounds.openFraction(Eigen::Matrix<Real, 3, 1>{x, y, z}.template cast<double>())),
-                  entry.wall);
+        if (!field_.sample(x, y, z, entry.wall, p.radius.empty() ? Real(1) : p.radius[i])) continue;
+        entry.closed = Real(1);
+        if (!wounds.empty()) {
+          entry.closed -= static_cast<Real>(wounds.openFraction(Eigen::Matrix<Real, 3, 1>{x, y, z}.template cast<double>()));
+          closeBy(entry.closed, entry.wall);
+        }
         entry.particle = i;
         share_[i] = entry.wall.share;
         ++length;
       }
       counts_[static_cast<std::size_t>(share)].touching = length;
     });
+  }
+
+  /// Calls visit(particle, wall, closed) for the particles of a share that sample() found near tissue, in storage order. `closed`
+  /// is 1 less what an open wound takes of the tissue there.
+  template <class Visit>
+  void forEachTouching(int share, Visit&& visit) const {
+    const Touching* list = touching_[static_cast<std::size_t>(share)].data();
+    for (std::uint32_t k = 0; k < counts_[static_cast<std::size_t>(share)].touching; ++k) {
+      visit(list[k].particle, list[k].wall, list[k].closed);
+    }
   }
 
   /// Adds to the accelerations. Velocities are those of the half step. With `drag`, friction goes there as a rate in 1/s, one for
@@ -102,6 +116,7 @@ class WallEffects {
  private:
   struct Touching {
     std::uint32_t particle;
+    Real closed;
     WallSample<Real> wall;
   };
   struct alignas(64) Count {
@@ -131,16 +146,18 @@ class WallEffects {
     Real drag = Real(0);
     if (constants_.viscosity_factor > Real(0)) {
       const Real viscosity = p.inverse_viscosity.empty() ? constants_.viscosity : Real(1) / p.inverse_viscosity[i];
-      drag = constants_.viscosity_factor * viscosity / density * entry.wall.friction;
+      drag = constants_.viscosity_factor * passes.viscosityFactor(i) * viscosity / density * entry.wall.friction;
     }
     if (drag_rates != nullptr) {
       drag_rates[i] = drag;
       drag = Real(0);
     }
+    const Real pull = entry.closed * constants_.adhesion.along(entry.wall.distance);
     Real* a = passes.acceleration() + std::size_t{i} * 4;
     const Real v[3] = {p.vx[i], p.vy[i], p.vz[i]};
     for (std::size_t k = 0; k < 3; ++k) {
-      a[k] += push * entry.wall.gradient[k] + constants_.speed_of_sound2 * entry.wall.spring[k] + drag * v[k];
+      a[k] += push * entry.wall.gradient[k] + constants_.speed_of_sound2 * entry.wall.spring[k] + drag * v[k] +
+              pull * entry.wall.normal[k];
     }
   }
 

@@ -144,6 +144,38 @@ TEST_F(BleedctlBleeddTest, TheClockObeys) {
       "accepted");
 }
 
+TEST_F(BleedctlBleeddTest, EffectsAreListedAndSwitched) {
+  const auto find = [](const Json& list, const std::string& name) {
+    for (const Json& row : list.list_value().values()) {
+      if (text(row, "name") == name) return row;
+    }
+    ADD_FAILURE() << name << " is not in " << list.ShortDebugString();
+    return Json{};
+  };
+  const Json before = json({"effect", "list"});
+  EXPECT_EQ(text(find(before, "viscosity"), "state"), "on");
+  EXPECT_THAT(text(find(before, "viscosity"), "settings"), HasSubstr("viscosity_pa_s: 0.00345"));
+  EXPECT_EQ(text(find(before, "repulsion"), "state"), "off");
+  EXPECT_THAT(bleedctl({"effect", "list"}).output, HasSubstr("on       viscosity       viscosity_pa_s: 0.00345"));
+
+  const Json on = json({"effect", "on", "viscosity", "--set", "viscosity_pa_s: 0.01", "--set", "solve: EXPLICIT"});
+  EXPECT_EQ(text(on, "code"), "accepted");
+  EXPECT_GT(number(on, "applied_step"), 0.0);
+  EXPECT_THAT(text(find(json({"effect", "list"}), "viscosity"), "settings"), HasSubstr("viscosity_pa_s: 0.01 solve: EXPLICIT"));
+  EXPECT_THAT(bleedctl({"effect", "off", "viscosity"}).output, HasSubstr("viscosity is off at step"));
+  EXPECT_EQ(text(find(json({"effect", "list"}), "viscosity"), "state"), "off");
+
+  const test::Finished unknown = bleedctl({"effect", "on", "stickiness"});
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_THAT(unknown.output, HasSubstr("no such effect, use gravity"));
+  const test::Finished bad = bleedctl({"effect", "on", "repulsion", "--set", "strength: 99"});
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_THAT(bad.output, HasSubstr("effects.repulsion.strength: value 99 is out of range, allowed 0 to 10"));
+  const test::Finished illegal = bleedctl({"effect", "on", "platelets"});
+  EXPECT_EQ(illegal.code, 1);
+  EXPECT_THAT(illegal.output, HasSubstr("needs viscosity"));
+}
+
 TEST_F(BleedctlBleeddTest, WatchGoesOnShowingAPausedSession) {
   EXPECT_EQ(text(json({"pause"}), "code"), "accepted");
   const auto still = eventually([](const client::SessionStatus& s) { return s.state == client::SessionState::paused; });

@@ -168,7 +168,8 @@ StatsHead Probe::stats(const std::function<bool(const StatsHead&)>& fits) {
             stats.state_hash,
             stats.wounds._length,
             stats.instruments._length,
-            stats.frames_overwritten};
+            stats.frames_overwritten,
+            stats.kinetic_energy_j};
     return !fits || fits(head);
   })) << "no such frame_stats";
   return head;
@@ -177,7 +178,14 @@ StatsHead Probe::stats(const std::function<bool(const StatsHead&)>& fits) {
 StatusHead Probe::status(const std::function<bool(const StatusHead&)>& fits) {
   StatusHead head;
   EXPECT_TRUE(next<bleed_v1_Status>(statuses_, [&](const bleed_v1_Status& status) {
-    head = {transport::toUuid(status.session), status.session_name, status.state, status.step, status.heartbeat, status.pid, {}};
+    head = {transport::toUuid(status.session),
+            status.session_name,
+            status.state,
+            status.step,
+            status.heartbeat,
+            status.pid,
+            {},
+            status.text};
     for (std::uint32_t i = 0; i < status.counters._length; ++i) {
       head.counters.emplace_back(status.counters._buffer[i].name, status.counters._buffer[i].value);
     }
@@ -193,6 +201,18 @@ bleed_v1_Journal Probe::journal(const std::function<bool(const bleed_v1_Journal&
     return fits(entry);
   })) << "no such journal entry";
   return out;
+}
+
+SceneHead Probe::scene(const std::function<bool(const SceneHead&)>& fits) {
+  SceneHead head;
+  EXPECT_TRUE(next<bleed_v1_Scene>(scenes_, [&](const bleed_v1_Scene& scene) {
+    head = {scene.scene_name, scene.epoch, scene.scene_text, scene.loaded_text, {}, {}};
+    for (std::uint32_t i = 0; i < scene.effects._length; ++i) head.effects.emplace_back(scene.effects._buffer[i]);
+    for (std::uint32_t i = 0; i < scene.known_effects._length; ++i)
+      head.known_effects.emplace_back(scene.known_effects._buffer[i]);
+    return !fits || fits(head);
+  })) << "no such scene";
+  return head;
 }
 
 std::string Probe::sceneName() {

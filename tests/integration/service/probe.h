@@ -50,6 +50,15 @@ struct StatsHead {
   std::size_t wounds = 0;
   std::size_t instruments = 0;
   std::uint64_t overwritten = 0;
+  double kinetic_energy = 0.0;
+};
+struct SceneHead {
+  std::string name;
+  std::uint32_t epoch = 0;
+  std::string text;
+  std::string loaded_text;
+  std::vector<std::string> effects;
+  std::vector<std::string> known_effects;
 };
 struct StatusHead {
   transport::Uuid session{};
@@ -59,6 +68,7 @@ struct StatusHead {
   std::uint64_t heartbeat = 0;
   std::int32_t pid = 0;
   std::vector<std::pair<std::string, std::uint64_t>> counters;
+  std::string text;
 
   std::uint64_t counter(const std::string& counter_name) const;
 };
@@ -85,6 +95,7 @@ class Probe {
   StatusHead status(const std::function<bool(const StatusHead&)>& fits = {});
   bleed_v1_Journal journal(const std::function<bool(const bleed_v1_Journal&)>& fits);
   std::string sceneName();
+  SceneHead scene(const std::function<bool(const SceneHead&)>& fits = {});
 
   /// Hash of the state after `count` steps from a reset of the paused session.
   std::uint64_t hashAfterReset(std::uint32_t count, const std::function<void()>& meanwhile);

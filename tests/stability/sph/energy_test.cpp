@@ -57,6 +57,19 @@ TEST_P(EnergyTest, periodicBoxKeepsAThousandth) {
   EXPECT_NEAR(energyKept(scene), 1.0, 0.0005);
 }
 
+TEST_P(EnergyTest, coreRadiusKeepsAPercent) {
+  sph::WorldDescription periodic = swirl(periodicBox({kAcross, kAcross, kAcross}, 0.05), GetParam(), 2.0);
+  periodic.effects.core_radius.emplace();
+  const double in_periodic = energyKept(periodic);
+  RecordProperty("periodic_energy_ratio", std::to_string(in_periodic));
+  EXPECT_NEAR(in_periodic, 1.0, 0.01);
+  sph::WorldDescription closed = swirl(closedBox({kAcross, kAcross, kAcross}, 0.05), GetParam(), 1.0);
+  closed.effects.core_radius.emplace();
+  const double in_closed = energyKept(closed);
+  RecordProperty("closed_energy_ratio", std::to_string(in_closed));
+  EXPECT_NEAR(in_closed, 1.0, 0.01);
+}
+
 // Viscosity only takes: a viscous box never gains, sampled every 20 steps, to the inviscid drift of a step.
 TEST_P(EnergyTest, viscosityOnlyTakes) {
   sph::WorldDescription scene = swirl(periodicBox({kAcross, kAcross, kAcross}, 0.05), GetParam(), 2.0);

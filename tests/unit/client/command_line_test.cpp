@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "clients/bleedctl/context.h"
+#include "clients/bleedctl/effect_settings.h"
 #include "clients/bleedctl/json.h"
 
 namespace bleedsim::bleedctl {
@@ -33,6 +34,19 @@ TEST(Json, EscapesAndWritesNonFiniteAsNull) {
   EXPECT_EQ(JsonArray{}.raw("1").raw("{}").text(), "[1, {}]");
 }
 
+TEST(EffectSettings, AreReadFromNormalisedText) {
+  const auto settings = effectSettings(
+      "name: \"effects {\"\neffects {\n  gravity {\n    acceleration_m_per_s2 {\n      z: -9.81\n    }\n  }\n  pressure {\n  }\n"
+      "  viscosity {\n    viscosity_pa_s: 0.01\n    solve: EXPLICIT\n  }\n  auto: \"platelets\"\n}\ntissue {\n  plane {\n  "
+      "}\n}\n");
+  ASSERT_EQ(settings.size(), 3U);
+  EXPECT_EQ(settings.at("gravity"), "acceleration_m_per_s2 { z: -9.81 }");
+  EXPECT_EQ(settings.at("pressure"), "");
+  EXPECT_EQ(settings.at("viscosity"), "viscosity_pa_s: 0.01 solve: EXPLICIT");
+  EXPECT_TRUE(effectSettings("").empty());
+  EXPECT_TRUE(effectSettings("# no scene").empty());
+}
+
 TEST(CommandLine, AnswersWrongUseWithCodeTwo) {
   EXPECT_EQ(run({}), 2);
   EXPECT_EQ(run({"dance"}), 2);
@@ -47,6 +61,9 @@ TEST(CommandLine, AnswersWrongUseWithCodeTwo) {
   EXPECT_EQ(run({"pace", "-1"}), 2);
   EXPECT_EQ(run({"step", "0"}), 2);
   EXPECT_EQ(run({"watch", "--count", "-1"}), 2);
+  EXPECT_EQ(run({"effect"}), 2);
+  EXPECT_EQ(run({"effect", "on"}), 2);
+  EXPECT_EQ(run({"effect", "off", "viscosity", "--set", "viscosity_pa_s: 1"}), 2);
 }
 
 TEST(CommandLine, HelpAndVersionSucceedForEveryCommand) {
@@ -57,6 +74,7 @@ TEST(CommandLine, HelpAndVersionSucceedForEveryCommand) {
     EXPECT_EQ(run({command, "--help"}), 0) << command;
   }
   for (const char* command : {"add", "move", "set", "remove"}) EXPECT_EQ(run({"wound", command, "--help"}), 0) << command;
+  for (const char* command : {"list", "on", "off"}) EXPECT_EQ(run({"effect", command, "--help"}), 0) << command;
 }
 
 TEST(CommandLine, AMissingInterfaceOrFileHasItsOwnCode) {

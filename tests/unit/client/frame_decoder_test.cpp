@@ -57,6 +57,19 @@ TEST(FrameDecoder, UnpacksPositionsAndIds) {
   EXPECT_TRUE(frame.velocities().empty());
 }
 
+TEST(FrameDecoder, UnpacksPlateletsAndRadii) {
+  WireFrame wire = twoParticles();
+  wire.attributes.push_back({bleed_v1_SEMANTIC_PLATELET, bleed_v1_SCALAR_FLOAT32, 1, 1.0F, 0.0F});
+  wire.attributes.push_back({bleed_v1_SEMANTIC_RADIUS, bleed_v1_SCALAR_FLOAT32, 1, 1.0F, 0.0F});
+  wire.append({0.99F, 0.5F, 0.004F, 0.005F});
+  Frame frame;
+  ASSERT_TRUE(wire.decode(frame).ok());
+  ASSERT_EQ(frame.platelets().size(), 2U);
+  EXPECT_EQ(frame.platelets()[1], 0.5F);
+  ASSERT_EQ(frame.radii().size(), 2U);
+  EXPECT_EQ(frame.radii()[0], 0.004F);
+}
+
 TEST(FrameDecoder, ScalesSixteenBitValues) {
   WireFrame wire = twoParticles();
   wire.attributes.push_back({bleed_v1_SEMANTIC_DENSITY, bleed_v1_SCALAR_UINT16, 1, 0.5F, 1000.0F});

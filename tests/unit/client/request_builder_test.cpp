@@ -68,5 +68,25 @@ TEST(RequestBuilder, NamesAttributesAsBits) {
   EXPECT_EQ((*built)->wire.body._u.output.attributes, 1U << bleed_v1_SEMANTIC_VELOCITY | 1U << bleed_v1_SEMANTIC_DENSITY);
 }
 
+TEST(RequestBuilder, FillsAnEffect) {
+  const auto built = buildEffect("surface_tension", true, "sigma_n_per_m: 0.06");
+  ASSERT_TRUE(built.ok());
+  EXPECT_EQ((*built)->wire.body._d, std::uint32_t{bleed_v1_REQUEST_EFFECT});
+  EXPECT_STREQ((*built)->wire.body._u.effect.name, "surface_tension");
+  EXPECT_TRUE((*built)->wire.body._u.effect.enabled);
+  EXPECT_STREQ((*built)->wire.body._u.effect.settings, "sigma_n_per_m: 0.06");
+  EXPECT_FALSE(buildEffect("gravity", false, "").value()->wire.body._u.effect.enabled);
+}
+
+TEST(RequestBuilder, RefusesAnEffectThatDoesNotFit) {
+  EXPECT_FALSE(buildEffect("", true, "").ok());
+  EXPECT_TRUE(buildEffect(std::string(32, 'x'), true, std::string(2048, ' ')).ok());
+  EXPECT_FALSE(buildEffect(std::string(33, 'x'), true, "").ok());
+  const auto long_text = buildEffect("gravity", true, std::string(2049, ' '));
+  EXPECT_EQ(long_text.status().code(), StatusCode::invalid_argument);
+  EXPECT_NE(long_text.status().message().find("at most 2048"), std::string::npos) << long_text.status().message();
+  EXPECT_FALSE(buildEffect("gravity", true, std::string("a\0b", 3)).ok());
+}
+
 }  // namespace
 }  // namespace bleedsim::client

@@ -12,6 +12,18 @@ LoadedScene build(std::shared_ptr<const scene::SceneDescription> scene, std::sha
   return {std::move(scene), std::move(world), std::move(frames)};
 }
 
+Result<LoadedScene> switched(const SceneJob& job, std::shared_ptr<FakeLog> log) {
+  const scene::EffectChange& change = job.effect->change;
+  if (change.settings == "bad") return Status{StatusCode::invalid_argument, "effects.x: value bad"};
+  auto scene = std::make_shared<scene::SceneDescription>(*job.known);
+  std::erase(scene->effects, change.name);
+  if (change.enabled) scene->effects.push_back(change.name);
+  scene->normalized_text += (change.enabled ? "+" : "-") + change.name;
+  if (change.settings == "decide") scene->decisions.emplace_back("auto: decided");
+  log->speed_of_sound = job.effect->speed_of_sound;
+  return build(std::move(scene), std::move(log));
+}
+
 }  // namespace
 
 FakeWorld::FakeWorld(sph::WorldDescription description, std::shared_ptr<FakeLog> log)
@@ -65,6 +77,15 @@ void FakeWorld::copyFrame(sph::FrameBuffer& frame, std::uint32_t attributes) con
   frame.attributes = attributes;
 }
 
+Status FakeWorld::adopt(sph::World& from) {
+  if (log_->refuse_adoption) return {StatusCode::capacity, "the fake world has no room"};
+  const auto& other = dynamic_cast<const FakeWorld&>(from);
+  steps_ = other.steps_;
+  wounds_ = other.wounds_;
+  ++log_->adoptions;
+  return {};
+}
+
 LoadedScene fakeScene(const std::string& name, std::shared_ptr<FakeLog> log) {
   auto scene = std::make_shared<scene::SceneDescription>();
   scene->name = name;
@@ -76,6 +97,7 @@ LoadedScene fakeScene(const std::string& name, std::shared_ptr<FakeLog> log) {
 
 SceneFactory fakeFactory(std::shared_ptr<FakeLog> log) {
   return [log = std::move(log)](const SceneJob& job) -> Result<LoadedScene> {
+    if (job.effect) return switched(job, log);
     if (job.known) return build(job.known, log);
     if (job.text == "broken") return Status{StatusCode::invalid_argument, "domain: missing, give the box"};
     return fakeScene(job.text, log);

@@ -16,6 +16,9 @@ struct FakeLog {
   std::vector<std::pair<std::uint64_t, sph::Command>> applied;  ///< with the steps that were done
   std::map<sph::ForceKey, sph::SetForce> forces;
   std::uint64_t fail_at_step = 0;  ///< the step that fails, 0: none
+  bool refuse_adoption = false;
+  int adoptions = 0;
+  double speed_of_sound = 0.0;  ///< that the last switched world was built with
 };
 
 class FakeWorld final : public sph::World {
@@ -33,6 +36,8 @@ class FakeWorld final : public sph::World {
   std::span<const sph::WoundState> wounds() const override { return wounds_; }
   void copyFrame(sph::FrameBuffer& frame, std::uint32_t attributes) const override;
   std::uint64_t stateHash() const override { return steps_ * 1000 + wounds_.size(); }
+  Status adopt(sph::World& from) override;
+  sph::MemoryUse memory() const override { return {}; }
   const sph::WorldDescription& description() const override { return description_; }
   sph::SimdTarget simdTarget() const override { return sph::SimdTarget::scalar; }
   double speedOfSound() const override { return 3.0; }
@@ -50,7 +55,8 @@ class FakeWorld final : public sph::World {
 /// A scene of that name with a fake world; 10 frames per simulated second, instruments expire after 0.1 s.
 LoadedScene fakeScene(const std::string& name, std::shared_ptr<FakeLog> log);
 
-/// Loads any text as a scene of that name; "broken" has problems, a known scene is made anew.
+/// Loads any text as a scene of that name; "broken" has problems, a known scene is made anew. Effects of any name are switched;
+/// the settings "bad" are refused, "decide" bring a decision.
 SceneFactory fakeFactory(std::shared_ptr<FakeLog> log);
 
 }  // namespace bleedsim::daemon

@@ -48,6 +48,13 @@ bleed_v1_RequestBody output(double rate, std::uint32_t attributes) {
   body._u.output = {rate, true, attributes};
   return body;
 }
+bleed_v1_RequestBody effect(const std::string& name, bool enabled, const std::string& settings) {
+  bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_EFFECT);
+  std::memcpy(body._u.effect.name, name.data(), name.size());
+  std::memcpy(body._u.effect.settings, settings.data(), settings.size());
+  body._u.effect.enabled = enabled;
+  return body;
+}
 bleed_v1_RequestBody steps(std::uint32_t count) {
   bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_STEP);
   body._u.step.count = count;
@@ -94,8 +101,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadRequest{"rate_slow", [] { return output(0.5, 0); }, StatusCode::invalid_argument, "use 1 to 1000 frames"},
         BadRequest{"rate_fast", [] { return output(1001.0, 0); }, StatusCode::invalid_argument, "use 1 to 1000 frames"},
         BadRequest{"rate_nan", [] { return output(kNaN, 0); }, StatusCode::invalid_argument, "output.rate_hz"},
-        BadRequest{"attribute_platelet", [] { return output(0.0, 1U << bleed_v1_SEMANTIC_PLATELET); }, StatusCode::unsupported,
-                   "output.attributes"},
+        BadRequest{"attribute_later", [] { return output(0.0, 1U << 7U); }, StatusCode::unsupported, "output.attributes"},
+        BadRequest{"effect_nameless", [] { return effect("", true, ""); }, StatusCode::invalid_argument, "effect.name is empty"},
+        BadRequest{"effect_control", [] { return effect("a\x01", true, ""); }, StatusCode::invalid_argument,
+                   "effect.name holds a control character"},
         BadRequest{"attribute_unknown", [] { return output(0.0, 1U << 31U); }, StatusCode::unsupported, "output.attributes"},
         BadRequest{"no_steps", [] { return steps(0); }, StatusCode::invalid_argument, "step.count is 0"},
         BadRequest{"too_many_steps", [] { return steps(0xFFFFFFFFU); }, StatusCode::invalid_argument, "step.count"},
@@ -127,6 +136,34 @@ TEST(DecodeAction, TranslatesOutputAttributes) {
   const auto& set = std::get<SetOutput>(*action);
   EXPECT_EQ(set.frame_rate, 30.0);
   EXPECT_EQ(set.attributes, sph::kFrameVelocity | sph::kFrameDensity);
+}
+
+TEST(DecodeAction, TranslatesEveryAttribute) {
+  const auto action = decodeAction(output(0.0, 0x7FU));
+  ASSERT_TRUE(action.ok()) << action.status().message();
+  EXPECT_EQ(std::get<SetOutput>(*action).attributes,
+            sph::kFrameVelocity | sph::kFrameDensity | sph::kFrameViscosity | sph::kFramePlatelet | sph::kFrameRadius);
+}
+
+TEST(DecodeAction, ReadsAnEffect) {
+  const auto action = decodeAction(effect("surface_tension", true, "sigma_n_per_m: 0.06"));
+  ASSERT_TRUE(action.ok()) << action.status().message();
+  const auto& set = std::get<SetEffect>(*action);
+  EXPECT_EQ(set.name, "surface_tension");
+  EXPECT_TRUE(set.enabled);
+  EXPECT_EQ(set.settings, "sigma_n_per_m: 0.06");
+}
+
+TEST(DecodeAction, ReadsAnEffectWhoseTextsAreNotTerminated) {
+  bleed_v1_RequestBody body = effect(std::string(33, 'n'), false, std::string(2049, 's'));
+  const std::uint8_t strange = 0x5A;
+  std::memcpy(&body._u.effect.enabled, &strange, 1);
+  const auto action = decodeAction(body);
+  ASSERT_TRUE(action.ok()) << action.status().message();
+  const auto& set = std::get<SetEffect>(*action);
+  EXPECT_EQ(set.name.size(), 33U);
+  EXPECT_EQ(set.settings.size(), 2049U);
+  EXPECT_TRUE(set.enabled);
 }
 
 TEST(DecodeAction, ReadsABooleanOfAnyByte) {

@@ -16,6 +16,8 @@ FrameSnapshot threeParticles(std::uint32_t attributes) {
   snapshot.frame.velocity = {-1, -2, -3, -4, -5, -6, -7, -8, -9};
   snapshot.frame.density = {1000, 1001, 1002};
   snapshot.frame.viscosity = {0.1F, 0.2F, 0.3F};
+  snapshot.frame.platelet = {0.97F, 0.98F, 0.99F};
+  snapshot.frame.radius = {0.001F, 0.002F, 0.003F};
   snapshot.frame.count = 3;
   snapshot.frame.step = 12;
   snapshot.frame.time = 0.25;
@@ -48,13 +50,16 @@ TEST(FrameEncoder, WritesPositionsAndIdsOneAfterTheOther) {
 
 TEST(FrameEncoder, WritesEveryAttributeAskedFor) {
   FrameEncoder encoder{Uuid{}};
-  const bleed_v1_Frame& frame =
-      encoder.encode(threeParticles(sph::kFrameVelocity | sph::kFrameDensity | sph::kFrameViscosity), 1);
-  ASSERT_EQ(frame.attributes._length, 5U);
-  ASSERT_EQ(frame.payload._length, 3U * 9U * 4U);
+  const bleed_v1_Frame& frame = encoder.encode(threeParticles(allFrameAttributes()), 1);
+  ASSERT_EQ(frame.attributes._length, 7U);
+  ASSERT_EQ(frame.payload._length, 3U * 11U * 4U);
   EXPECT_EQ(scalarAt<float>(frame, 12), -1.0F);
   EXPECT_EQ(scalarAt<float>(frame, 12 + 9), 1000.0F);
   EXPECT_EQ(scalarAt<float>(frame, 12 + 12 + 2), 0.3F);
+  EXPECT_EQ(frame.attributes._buffer[5].semantic, static_cast<std::uint32_t>(bleed_v1_SEMANTIC_PLATELET));
+  EXPECT_EQ(scalarAt<float>(frame, 12 + 15), 0.97F);
+  EXPECT_EQ(frame.attributes._buffer[6].semantic, static_cast<std::uint32_t>(bleed_v1_SEMANTIC_RADIUS));
+  EXPECT_EQ(scalarAt<float>(frame, 12 + 18 + 2), 0.003F);
 }
 
 TEST(FrameEncoder, BytesPerParticleAreThoseOfThePayload) {

@@ -89,7 +89,9 @@ TEST(SceneEncoder, TellsUnitsAndBounds) {
   SceneReport report;
   report.epoch = 3;
   report.text = "name: 'round'";
+  report.loaded_text = "name: 'before'";
   report.effects = {"gravity", "pressure"};
+  report.known_effects = {"gravity", "pressure", "viscosity"};
   report.particle_volume = 1e-9;
   report.domain.upper = {0.1, 0.2, 0.3};
   const bleed_v1_Scene& scene = encoder.encode(report);
@@ -98,6 +100,9 @@ TEST(SceneEncoder, TellsUnitsAndBounds) {
   EXPECT_STREQ(scene.scene_text, "name: 'round'");
   ASSERT_EQ(scene.effects._length, 2U);
   EXPECT_STREQ(scene.effects._buffer[1], "pressure");
+  EXPECT_STREQ(scene.loaded_text, "name: 'before'");
+  ASSERT_EQ(scene.known_effects._length, 3U);
+  EXPECT_STREQ(scene.known_effects._buffer[2], "viscosity");
   EXPECT_DOUBLE_EQ(scene.particle_volume_ml, 1e-3);
   EXPECT_DOUBLE_EQ(scene.upper_bound.z, 0.3);
 }

@@ -44,6 +44,22 @@ TEST(Export, AppendedBlocksLieWhereTheHeaderSays) {
   EXPECT_EQ(vtp->substr(base + end), "\n</AppendedData>\n</VTKFile>\n");
 }
 
+TEST(Export, NamesEveryAttribute) {
+  std::mt19937_64 random{5};
+  Frame frame = makeFrame(random, 1, 3);
+  for (const Attribute::Semantic semantic : {Attribute::PLATELET, Attribute::RADIUS, Attribute::VISCOSITY, Attribute::DENSITY}) {
+    Attribute& attribute = *frame.add_attributes();
+    attribute.set_semantic(semantic);
+    attribute.set_components(1);
+    frame.mutable_payload()->append(12, '\0');
+  }
+  auto vtp = toVtp(frame);
+  ASSERT_TRUE(vtp.ok()) << vtp.status().message();
+  for (const char* name : {"platelet", "radius", "viscosity", "density"}) {
+    EXPECT_NE(vtp->find("Name=\"" + std::string{name} + "\""), std::string::npos) << name;
+  }
+}
+
 TEST(Export, WritesEveryFrameAndTheCollection) {
   const ScratchFile file{"export.mcap"};
   const ScratchFile directory{"export"};

@@ -142,11 +142,11 @@ Journal makeJournal(std::mt19937_64& random, std::uint64_t number, int kind) {
   journal.set_number(number);
   journal.set_step(random() % 1000);
   journal.set_sim_time_s(randomDouble(random));
-  if (kind == 13) {
+  if (kind == kRequestKinds) {
     randomize(random, *journal.mutable_instrument());
-  } else if (kind == 14) {
+  } else if (kind == kRequestKinds + 1) {
     randomize(random, *journal.mutable_instrument_end());
-  } else if (kind == 15) {
+  } else if (kind == kRequestKinds + 2) {
     journal.set_decision("slowed down");
   } else {
     Request& request = *journal.mutable_request()->mutable_request();
@@ -193,7 +193,7 @@ std::vector<Stored> writeRecording(const std::filesystem::path& path, std::size_
     put(Topic::frame_stats, makeStats(seq, 0.25 * static_cast<double>(seq)));
     if (i % 3 == 0) {
       ++number;
-      put(Topic::journal, makeJournal(random, number, static_cast<int>(i / 3 % 16)));
+      put(Topic::journal, makeJournal(random, number, static_cast<int>(i / 3 % kJournalKinds)));
     }
     if (i % 10 == 0) {
       recording::Status status;

@@ -33,7 +33,10 @@ void randomize(std::mt19937_64& random, google::protobuf::Message& message);
 /// A frame with positions, ids and 16-bit scaled velocities.
 Frame makeFrame(std::mt19937_64& random, std::uint64_t seq, std::uint32_t count);
 Scene makeScene(std::mt19937_64& random);
-/// Kind 0 to 15: every case of a request, and the other bodies.
+/// Cases of a request, and of a journal entry with each request counted for itself.
+constexpr int kRequestKinds = 14;
+constexpr int kJournalKinds = kRequestKinds + 3;
+/// Kind 0 to kJournalKinds - 1: every case of a request, and the other bodies.
 Journal makeJournal(std::mt19937_64& random, std::uint64_t number, int kind);
 FrameStats makeStats(std::uint64_t seq, double emitted_ml);
 

@@ -34,7 +34,7 @@ TEST(RoundTrip, EveryKindOfMessageSurvivesTheStructs) {
     randomize(random, scene);
     expectSame(scene);
     expectSame(makeFrame(random, n, 13));
-    expectSame(makeJournal(random, n, static_cast<int>(n % 16)));
+    expectSame(makeJournal(random, n, static_cast<int>(n % kJournalKinds)));
   }
 }
 

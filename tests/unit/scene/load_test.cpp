@@ -44,7 +44,7 @@ TEST(LoadScene, EveryShippedSceneIsValidAndNamedLikeItsFile) {
     ASSERT_TRUE(scene.ok()) << scene.status().message();
     EXPECT_EQ(scene->name, entry.path().stem().string());
     EXPECT_FALSE(scene->description.empty());
-    EXPECT_EQ(scene->effects.size(), 4u) << "each shipped scene takes forces and commands";
+    EXPECT_TRUE(scene->world.effects.applied_force.has_value()) << "each shipped scene takes forces and commands";
     EXPECT_FALSE(scene->world.wounds.empty());
     EXPECT_NE(scene->attributes & sph::kFrameVelocity, 0u) << entry.path();
   }

@@ -17,6 +17,13 @@ TEST(NearestName, FindsTheSmallestEditDistance) {
   EXPECT_EQ(nearestName("radius_m", kNames), "radius_m");
 }
 
+TEST(NearestName, KnowsANameWithoutItsUnit) {
+  const std::vector<std::string> names{"viscous", "viscosity_pa_s"};
+  EXPECT_EQ(nearestName("viscosity", names), "viscosity_pa_s");
+  EXPECT_EQ(nearestName("viscos", names), "viscous");
+  EXPECT_EQ(nearestName("", names), "");
+}
+
 TEST(NearestName, IsSilentAboutNamesUnlikeAny) {
   EXPECT_EQ(nearestName("xyzzy_plugh", kNames), "");
   EXPECT_EQ(nearestName("", {}), "");

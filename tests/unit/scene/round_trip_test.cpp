@@ -39,8 +39,25 @@ struct PrintShape {
 std::string print(const sph::EffectSettings& effects) {
   std::string result;
   if (effects.gravity) result += " gravity " + print(effects.gravity->acceleration);
-  if (effects.pressure) result += fmt::format(" pressure {}", effects.pressure->background_pressure);
-  if (effects.viscosity) result += fmt::format(" viscosity {}", effects.viscosity->viscosity);
+  if (effects.pressure) {
+    result += fmt::format(" pressure {} {}", effects.pressure->background_pressure, static_cast<int>(effects.pressure->form));
+  }
+  if (const auto& v = effects.viscosity) {
+    result += fmt::format(" viscosity {} {} {} {} {}", v->viscosity, v->rheology.index(), static_cast<int>(v->solve),
+                          v->solve_tolerance, v->max_iterations);
+  }
+  if (const auto& t = effects.surface_tension) {
+    result += fmt::format(" tension {} {} {}", t->coefficient, t->normal_cutoff, t->contact_angle.value_or(-1.0));
+  }
+  if (const auto& p = effects.platelets) {
+    result += fmt::format(" platelets {} {} {} {} {} {} {} {}", p->fresh, p->diffusivity, p->activation_rate, p->wall_rate,
+                          p->air_rate, p->shear_gate, p->clot_viscosity, p->clot_speedup);
+  }
+  if (const auto& r = effects.core_radius) result += fmt::format(" radius {} {} {}", r->smallest, r->largest, r->relaxation);
+  if (const auto& r = effects.repulsion) {
+    result += fmt::format(" repulsion {} {} {} {} {}", r->strength, r->contact_distance, r->power_1, r->power_2, r->damping);
+  }
+  if (effects.adhesion) result += fmt::format(" adhesion {}", effects.adhesion->acceleration);
   if (effects.applied_force) result += fmt::format(" applied_force {}", effects.applied_force->max_sources);
   return result;
 }

@@ -17,6 +17,9 @@ TEST_P(Allocation, StepFrameStatsAndHashAllocateNothing) {
   pool.upper = {0.01, 0.01, 0.012};
   description.fluid_blocks.push_back(pool);
   description.effects.applied_force.emplace();
+  description.effects.surface_tension.emplace();
+  description.effects.surface_tension->contact_angle = 0.7;
+  description.effects.adhesion.emplace();
   const auto world = test::makeWorld(description, {.threads = GetParam()});
   SetForce force;
   force.key = 1;

@@ -1,6 +1,7 @@
 // The cell grid against brute force: which particles the runs of a cell hold, and in which order the sort leaves them.
 #include "service/sph/neighbors/cell_grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numeric>
@@ -21,13 +22,13 @@ struct Sorted {
 };
 
 Sorted sortPoints(const std::vector<Point>& points, const Point& sides, const Periodic& periodic, int shares = 1,
-                  const std::vector<std::uint32_t>& removed = {}) {
+                  const std::vector<std::uint32_t>& removed = {}, double cell = 1.0, double largest_cell = 1.0) {
   const auto n = static_cast<std::uint32_t>(points.size());
   const auto executor = makeExecutor(shares);
-  Sorted sorted{CellGrid<double>{std::max(n, 1u), {0.0, 0.0, 0.0}, sides, periodic, 1.0, shares}, {}, 0};
+  Sorted sorted{CellGrid<double>{std::max(n, 1u), {0.0, 0.0, 0.0}, sides, periodic, 1.0, shares, largest_cell}, {}, 0};
   Bounds<double> bounds;
   for (const Point& p : points) bounds.include(p[0], p[1], p[2]);
-  sorted.grid.cover(bounds);
+  sorted.grid.cover(bounds, cell);
   for (std::uint32_t i = 0; i < n; ++i) sorted.grid.cells()[i] = sorted.grid.cellAt(points[i][0], points[i][1], points[i][2]);
   for (const std::uint32_t i : removed) sorted.grid.cells()[i] = CellGrid<double>::kRemoved;
   sorted.order.resize(n);
@@ -124,6 +125,49 @@ TEST(CellGrid, SortsByCellAndKeepsTheOrderWithinACell) {
     ASSERT_GE(k, sorted.grid.view().start[cell]);
     ASSERT_LT(k, sorted.grid.view().start[cell + 1]);
     last_cell = cell;
+  }
+}
+
+// Two particles within `cell` of each other stand in neighbouring cells, whatever the largest cell.
+TEST(CellGrid, CellsFollowTheSearch) {
+  const Point sides{5.0, 4.1, 6.0};
+  const std::vector<Point> points = randomPoints(400, sides);
+  for (const Periodic& periodic : {Periodic{false, false, false}, Periodic{true, false, true}, Periodic{true, true, true}}) {
+    for (const double cell : {1.0, 1.13, 1.3}) {
+      const Sorted sorted = sortPoints(points, sides, periodic, 1, {}, cell, 1.3);
+      std::vector<std::array<int, 3>> at(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t a = 0; a < 3; ++a) at[i][a] = sorted.grid.coordinate(a, points[i][a]);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          for (std::size_t a = 0; a < 3; ++a) {
+            const int cells = sorted.grid.view().size[a] - 2;
+            double apart = std::abs(points[i][a] - points[j][a]);
+            int steps = std::abs(at[i][a] - at[j][a]);
+            if (periodic[a]) apart = std::min(apart, sides[a] - apart);
+            if (periodic[a]) steps = std::min(steps, cells - steps);
+            if (apart < cell) { ASSERT_LE(steps, 1) << "axis " << a; }
+          }
+        }
+      }
+      for (std::size_t a = 0; a < 3; ++a) EXPECT_GE(sorted.grid.view().size[a], periodic[a] ? 5 : 3);
+    }
+  }
+}
+
+// The same particles, and one more far away: the others keep their order.
+TEST(CellGrid, OrderDoesNotDependOnTheBounds) {
+  const Point sides{40.0, 40.0, 40.0};
+  std::vector<Point> points = randomPoints(500, {5.0, 6.0, 7.0});
+  for (Point& p : points)
+    for (double& x : p) x += 17.3;
+  for (const double cell : {1.0, 1.07, 1.3}) {
+    const std::vector<std::uint32_t> alone = sortPoints(points, sides, {}, 1, {}, cell, 1.3).order;
+    std::vector<Point> with = points;
+    with.push_back({1.9, 2.8, 0.3});
+    std::vector<std::uint32_t> order = sortPoints(with, sides, {}, 1, {}, cell, 1.3).order;
+    order.erase(std::find(order.begin(), order.end(), 500u));
+    EXPECT_EQ(order, alone) << cell;
   }
 }
 

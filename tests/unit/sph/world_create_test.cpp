@@ -195,7 +195,8 @@ TEST(Effects, TheCatalogueNamesEachWithItsSource) {
     EXPECT_FALSE(effect.source.empty());
     EXPECT_FALSE(effect.deviation.empty());
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "applied_force"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "surface_tension", "core_radius", "repulsion",
+                                               "adhesion", "applied_force"}));
 }
 
 TEST(Effects, TheirSettingsEnableThem) {
@@ -213,8 +214,16 @@ TEST(Effects, TheirSettingsEnableThem) {
   only_enabled("pressure");
   description.effects.viscosity.emplace();
   only_enabled("viscosity");
+  description.effects.core_radius.emplace();
+  only_enabled("core_radius");
+  description.effects.repulsion.emplace();
+  only_enabled("repulsion");
   description.effects.applied_force.emplace();
   only_enabled("applied_force");
+  description.effects.surface_tension.emplace();
+  only_enabled("surface_tension");
+  description.effects.adhesion.emplace();
+  only_enabled("adhesion");
   EXPECT_FALSE(effectEnabled(description, "surface_tension"));
   EXPECT_FALSE(effectEnabled(description, ""));
 }

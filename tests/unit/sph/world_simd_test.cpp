@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/scenes.h"
+#include "tests/unit/sph/pass_rig.h"
 
 namespace bleedsim::sph {
 namespace {
 
 struct Case {
-  const char* name;
+  std::string name;
   std::function<WorldDescription()> describe;
 };
 
@@ -36,29 +37,39 @@ WorldDescription bleeding() {
 }
 
 const std::vector<Case>& cases() {
-  static const std::vector<Case> kAll{
-      {"FreeBlock",
-       [] {
-         return test::freeBlock({11, 9, 10}, 0.3);
-       }},
-      {"Periodic",
-       [] {
-         return test::periodicBox({10, 8, 9}, 0.3);
-       }},
-      {"Harmonic",
-       [] {
-         return harmonic(test::freeBlock({12, 9, 9}, 0.3));
-       }},
-      {"HarmonicPeriodic",
-       [] {
-         return harmonic(test::periodicBox({12, 8, 8}, 0.3));
-       }},
-      {"ClosedBox",
-       [] {
-         return test::closedBox({9, 8, 10}, 0.2);
-       }},
-      {"Bleeding", bleeding},
-  };
+  static const std::vector<Case> kAll = [] {
+    std::vector<Case> scenes{
+        {"FreeBlock",
+         [] {
+           return test::freeBlock({11, 9, 10}, 0.3);
+         }},
+        {"Periodic",
+         [] {
+           return test::periodicBox({10, 8, 9}, 0.3);
+         }},
+        {"Harmonic",
+         [] {
+           return harmonic(test::freeBlock({12, 9, 9}, 0.3));
+         }},
+        {"HarmonicPeriodic",
+         [] {
+           return harmonic(test::periodicBox({12, 8, 8}, 0.3));
+         }},
+        {"ClosedBox",
+         [] {
+           return test::closedBox({9, 8, 10}, 0.2);
+         }},
+        {"Bleeding", bleeding},
+    };
+    for (const PairSet& set : allPairSets()) {
+      scenes.push_back({nameOf(set), [set] {
+                          WorldDescription description = withPairSet(test::freeBlock({9, 8, 8}, 0.2), set);
+                          description.fluid_blocks.front().velocity = {0.1, -0.2, 0.05};
+                          return description;
+                        }});
+    }
+    return scenes;
+  }();
   return kAll;
 }
 

@@ -73,6 +73,9 @@ class Session {
   std::future<Reply> pace(const Pace& pace);
   std::future<Reply> output(const OutputSpec& output);
   std::future<Reply> loadScene(const std::string& text);
+  /// Switches an effect of the running scene, e.g. "surface_tension". `settings` is protobuf text of its message in
+  /// idl/scene.proto; empty: the settings it had when it was last on, or its defaults. The answer comes when it acts.
+  std::future<Reply> setEffect(const std::string& name, bool enabled, const std::string& settings = {});
   std::future<Reply> shutdown();
 
   /// One round trip, which also improves clockOffset(). timed_out: no answer.

@@ -47,7 +47,7 @@ struct SessionStatus {
   std::int64_t realtime_stamp_ns = 0;
 };
 
-/// The scene that runs; sent at each load and to late joiners.
+/// The scene that runs; sent at each load, when an effect was switched, and to late joiners.
 struct SceneInfo {
   Uuid session{};
   std::string session_name;
@@ -59,9 +59,11 @@ struct SceneInfo {
   std::string simd_target;
   std::string precision;
   std::string name;
-  std::string text;  ///< protobuf text of the scene
+  std::string text;         ///< protobuf text of the scene, as it acts now
+  std::string loaded_text;  ///< the same as the epoch began with it; empty from services before protocol 1.1
   std::uint64_t seed = 0;
-  std::vector<std::string> effects;
+  std::vector<std::string> effects;        ///< that act
+  std::vector<std::string> known_effects;  ///< that the service can switch; empty from services before protocol 1.1
   std::string frame_id;
   std::string length_unit;
   std::string axes;

@@ -1,0 +1,88 @@
+#include "service/scene/change_effect.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
+#include "service/scene/auto_effects.h"
+#include "service/scene/effect_names.h"
+#include "service/scene/fill_defaults.h"
+#include "service/scene/finish_scene.h"
+#include "service/scene/nearest_name.h"
+#include "service/scene/read_text.h"
+
+namespace bleedsim::scene {
+namespace {
+
+/// With the whole list, which just fits into a reply.
+Status unknownEffect(const std::string& name) {
+  const std::vector<std::string> known = knownEffects();
+  const std::string nearest = nearestName(name, known);
+  if (!nearest.empty()) {
+    return {StatusCode::not_found, fmt::format("no effect '{}'; did you mean '{}'?", name.substr(0, 32), nearest)};
+  }
+  return {StatusCode::not_found, fmt::format("no such effect, use {}", fmt::join(known, ", "))};
+}
+
+void dropAttribute(Output& output, Output::Attribute attribute) {
+  std::vector<int> kept;
+  for (const int value : output.attributes()) {
+    if (value != attribute) kept.push_back(value);
+  }
+  output.mutable_attributes()->Assign(kept.begin(), kept.end());
+}
+
+/// What an absent effect would make invalid.
+void dropDependents(Scene& scene) {
+  if (!scene.effects().has_viscosity()) {
+    dropAttribute(*scene.mutable_output(), Output::VISCOSITY);
+    for (FluidBlock& block : *scene.mutable_fluid_blocks()) block.clear_viscosity_pa_s();
+  }
+  if (!scene.effects().has_platelets()) dropAttribute(*scene.mutable_output(), Output::PLATELET);
+  if (!scene.effects().has_core_radius()) dropAttribute(*scene.mutable_output(), Output::RADIUS);
+}
+
+void leaveAuto(const std::string& name, Effects& effects) {
+  std::vector<std::string> kept;
+  for (const std::string& other : effects.auto_()) {
+    if (other != name && !(name == "viscosity" && other == kAutoImplicit)) kept.push_back(other);
+  }
+  effects.mutable_auto_()->Assign(kept.begin(), kept.end());
+}
+
+}  // namespace
+
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change) {
+  const google::protobuf::FieldDescriptor* field = findEffect(change.name);
+  if (field == nullptr) return unknownEffect(change.name);
+  Scene message;
+  ProblemList problems;
+  if (!readText(scene.normalized_text, message, problems)) return problems.firstToStatus();
+
+  Effects& effects = *message.mutable_effects();
+  const google::protobuf::Reflection& reflection = *effects.GetReflection();
+  SettingsMemory former = scene.former_settings;
+  const bool was_on = reflection.HasField(effects, field);
+  if (was_on) former[change.name] = writeText(reflection.GetMessage(effects, field));
+  leaveAuto(change.name, effects);
+  if (change.enabled) {
+    const auto remembered = former.find(change.name);
+    const std::string& settings = change.settings.empty() && remembered != former.end() ? remembered->second : change.settings;
+    reflection.ClearField(&effects, field);
+    if (!readText(settings, *reflection.MutableMessage(&effects, field), problems)) return problems.firstToStatus();
+  } else if (!change.settings.empty()) {
+    return Status{StatusCode::invalid_argument,
+                  fmt::format("effects.{}: settings are for an effect that goes on; leave them out", change.name)};
+  } else {
+    reflection.ClearField(&effects, field);
+    dropDependents(message);
+  }
+  Result<SceneDescription> changed = finishScene(message, problems);
+  if (!changed) return problems.firstToStatus();
+  changed->former_settings = std::move(former);
+  return changed;
+}
+
+}  // namespace bleedsim::scene

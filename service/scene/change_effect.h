@@ -1,0 +1,24 @@
+// An effect of a running scene is switched, or gets other settings.
+#pragma once
+
+#include <string>
+
+#include "service/scene/scene.h"
+
+namespace bleedsim::scene {
+
+struct EffectChange {
+  std::string name;
+  bool enabled = false;
+  /// Protobuf text of the effect's message: what it leaves out takes its default. Empty: the settings that the effect had when
+  /// it was last on, or its defaults.
+  std::string settings;
+};
+
+/// The scene as it reads with the change. not_found: no such effect, with the list; invalid_argument: the first problem of the
+/// settings or of the combination, short enough for a reply.
+/// An effect that goes off takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves
+/// effects.auto: who switches by hand has decided.
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change);
+
+}  // namespace bleedsim::scene
