@@ -28,8 +28,9 @@ void printEffects(const scene::SceneDescription* description, bool json) {
     const bool on = description != nullptr && acts(*description, effect.name);
     if (json) {
       const std::string state = description == nullptr ? "" : fmt::format("\"on\": {}, ", on);
-      fmt::print("{}{{\"name\": {}, {}\"equation\": {}, \"source\": {}, \"deviation\": {}}}", separator, quoted(effect.name),
-                 state, quoted(effect.equation), quoted(effect.source), quoted(effect.deviation));
+      fmt::print("{}{{\"name\": {}, {}\"equation\": {}, \"source\": {}, \"deviation\": {}, \"literal\": {}}}", separator,
+                 quoted(effect.name), state, quoted(effect.equation), quoted(effect.source), quoted(effect.deviation),
+                 quoted(effect.literal));
       separator = ", ";
       continue;
     }
@@ -38,6 +39,7 @@ void printEffects(const scene::SceneDescription* description, bool json) {
     const std::size_t indent = state.size() + 17;
     if (!effect.source.empty()) fmt::print("{:>{}}source: {}\n", "", indent, effect.source);
     if (!effect.deviation.empty()) fmt::print("{:>{}}deviation: {}\n", "", indent, effect.deviation);
+    if (!effect.literal.empty()) fmt::print("{:>{}}literal: {}\n", "", indent, effect.literal);
   }
   if (json) fmt::print("]\n");
   if (json || description == nullptr) return;

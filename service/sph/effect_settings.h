@@ -90,6 +90,21 @@ struct AdhesionSettings {
   double acceleration = 5.0;  ///< k_ad, m/s^2
 };
 
+/// What the paper's equations leave open. Read by the literal model only (literal_model.h), in place of the sound effects' own.
+struct LiteralSettings {
+  PressureForm pressure = PressureForm::symmetric;  ///< (17), the paper's choice, or (16)
+  std::optional<double> stiffness;                  ///< k of (18)(19), m^2/s^2; default c0^2; c0 follows it
+  double tension = 0.0526;                          ///< eps of (22), N/m
+  double normal_cutoff = 0.3;                       ///< tension acts where |n| h is above it
+  double thickening = 10.0;                         ///< b of (26), Pa s
+  std::optional<double> thickening_exponent;        ///< a of (26); default: fresh blood has ViscositySettings::viscosity
+  double platelet_diffusivity = 1e-9;               ///< k of (27), m^2/s
+  std::optional<double> repulsion;                  ///< D of (36), N m^2; default 1.5 m c0^2 dx
+  int power_1 = 6, power_2 = 4;                     ///< n1 > n2 of (36)
+  double contact_radius = 0.45;                     ///< r_i of (35), in spacings
+  std::optional<double> radius_factor;              ///< lambda of (34); default: h = support_ratio dx at rest
+};
+
 struct AppliedForceSettings {
   std::uint32_t max_sources = 64;
 };

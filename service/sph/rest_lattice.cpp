@@ -12,13 +12,15 @@ RestLattice calibrateRestLattice(const SmoothingKernel& kernel, double spacing, 
   const int reach = static_cast<int>(std::ceil(kernel.h / spacing));
   const double softening = 0.01 * softening_radius * softening_radius;
   double kernel_sum = 0.0;
-  double laplacian_sum = 0.0;  // of v = r^2 / 6, whose Laplacian is 1
-  for (int z = -reach; z <= reach; ++z) {
+  double laplacian_sum = 0.0;  // of v = r^2/(2 d), whose Laplacian is 1
+  const int layers = kernel.planar() ? 0 : reach;
+  const double twice_dimension = kernel.planar() ? 4.0 : 6.0;
+  for (int z = -layers; z <= layers; ++z) {
     for (int y = -reach; y <= reach; ++y) {
       for (int x = -reach; x <= reach; ++x) {
         const double r = spacing * std::sqrt(static_cast<double>(x * x + y * y + z * z));
         kernel_sum += kernel.value(r);
-        laplacian_sum += -2.0 * r * kernel.slope(r) / (r * r + softening) * r * r / 6.0;
+        laplacian_sum += -2.0 * r * kernel.slope(r) / (r * r + softening) * r * r / twice_dimension;
       }
     }
   }

@@ -1,4 +1,5 @@
-// Calibration on the rest lattice: the cubic lattice of spacing dx that blood at rest is measured against.
+// Calibration on the rest lattice: the cubic lattice of spacing dx that blood at rest is measured against, or
+// the square lattice of one layer for a planar kernel.
 #pragma once
 
 #include "service/sph/smoothing_kernel.h"

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "service/sph/effects/effect_list.h"
+#include "service/sph/effects/literal_list.h"
 #include "service/sph/seeding.h"
 #include "service/sph/world_checks.h"
 #include "service/sph/world_core.h"
@@ -85,7 +86,12 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   if (!isFiniteNotNegative(d.compressibility.max_fall_or_depth)) {
     return invalid("the largest fall or depth must be finite and not negative");
   }
+  if (d.kernel != KernelType::wendland_c2 && d.kernel != KernelType::cubic_spline) {
+    return invalid("the sound model's kernel must be Wendland C2 or the cubic spline");
+  }
   if (Status status = checkEffects(d.effects); !status.ok()) return status;
+  if (Status status = checkLiteral(d); !status.ok()) return status;
+  if (Status status = checkPlanar(d); !status.ok()) return status;
   if (Status status = checkEffectSet(d); !status.ok()) return status;
   const double h = d.supportRadius();
   const double c0 = options.speed_of_sound.value_or(speedOfSound(d));
@@ -125,7 +131,7 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
 template <class Real>
 Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptions& options, SimdTarget target,
                                      const WorldTables<Real>& tables) {
-  const SmoothingKernel kernel{d.kernel, d.supportRadius()};
+  const SmoothingKernel kernel = d.densityKernel();
   const RestLattice lattice = calibrateRestLattice(kernel, d.spacing, d.rest_density);
   Result<TissueField<Real>> tissue = TissueField<Real>::create(d.tissue, {.kernel = kernel,
                                                                           .spacing = d.spacing,
@@ -141,6 +147,7 @@ Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptio
 }  // namespace
 
 double speedOfSound(const WorldDescription& d) {
+  if (d.model == Model::literal && d.literal.stiffness) return std::sqrt(*d.literal.stiffness);
   const double g = d.effects.gravity ? d.effects.gravity->acceleration.norm() : 0.0;
   double speed =
       std::max(d.compressibility.design_speed, std::sqrt(2.0 * g * std::max(0.0, d.compressibility.max_fall_or_depth)));
@@ -191,7 +198,10 @@ std::string_view counterName(Counter counter) { return kCounterNames[static_cast
 std::span<const EffectInfo> effectCatalog() {
   static constexpr auto kCatalog = [] {
     std::array<EffectInfo, kEffects.size()> catalog{};
-    for (std::size_t i = 0; i < kEffects.size(); ++i) catalog[i] = kEffects[i].info;
+    for (std::size_t i = 0; i < kEffects.size(); ++i) {
+      catalog[i] = kEffects[i].info;
+      catalog[i].literal = literalText(catalog[i].name);
+    }
     return catalog;
   }();
   return kCatalog;

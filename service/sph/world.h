@@ -175,7 +175,8 @@ struct EffectInfo {
   std::string_view name;
   std::string_view equation;  ///< of the paper, or of the source
   std::string_view source;
-  std::string_view deviation;  ///< from the paper
+  std::string_view deviation;     ///< from the paper
+  std::string_view literal = {};  ///< what it is in the literal model; empty: not in it
 };
 std::span<const EffectInfo> effectCatalog();
 /// Whether the description enables the effect of that name.

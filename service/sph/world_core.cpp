@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "service/sph/flush_to_zero.h"
+#include "service/sph/integrate/layer_lock.h"
 #include "service/sph/view.h"
 #include "service/sph/world_setup.h"
 
@@ -70,6 +71,11 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     const Vec3& g = description.effects.gravity->acceleration;
     gravity_ = {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(g.z())};
   }
+  if (description.planar) gravity_[2] = Real(0);
+  if (description.model == Model::literal) {
+    opening_ = 1.0;
+    literal_.emplace(description, lattice, speed_of_sound_, viscosityVaries(description), target);
+  }
   if (const auto& core_radius = description.effects.core_radius) {
     core_radius_.emplace(*core_radius, description.rest_density, options.threads);
   }
@@ -85,7 +91,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_,
                            (description.domain.upper - description.domain.lower).norm());
   }
-  if (description.effects.surface_tension) {
+  if (description.effects.surface_tension && description.model == Model::sound) {
     surface_tension_.emplace(*description.effects.surface_tension, tables.sweeps, lattice.particle_mass, description.rest_density,
                              h_, description.capacity);
   }
@@ -97,16 +103,20 @@ Status WorldCore<Real>::populate() {
   for (const FluidBlock& block : description_.fluid_blocks) {
     const double viscosity =
         block.viscosity.value_or(description_.effects.viscosity ? description_.effects.viscosity->viscosity : 0.0);
+    const double layer = block.lower.z() + 0.5 * description_.spacing;  // of a planar world: jitter leaves it
     seedBlock(block, description_.spacing, jitter, [&](const Vec3& position) {
       const std::uint32_t i = count_++;
       particles_.x[i] = static_cast<Real>(position.x() / h_);
       particles_.y[i] = static_cast<Real>(position.y() / h_);
-      particles_.z[i] = static_cast<Real>(position.z() / h_);
+      particles_.z[i] = static_cast<Real>((description_.planar ? layer : position.z()) / h_);
       particles_.vx[i] = static_cast<Real>(block.velocity.x());
       particles_.vy[i] = static_cast<Real>(block.velocity.y());
       particles_.vz[i] = static_cast<Real>(block.velocity.z());
       particles_.id[i] = next_id_++;
       if (!particles_.inverse_viscosity.empty()) particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity);
+      if (!particles_.platelet.empty()) {
+        particles_.platelet[i] = static_cast<Real>(block.platelet.value_or(description_.effects.platelets->fresh));
+      }
       if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
     });
   }
@@ -175,6 +185,7 @@ void WorldCore<Real>::emit(double dt) {
     if (!particles_.inverse_viscosity.empty()) {
       particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / description_.effects.viscosity->viscosity);
     }
+    if (!particles_.platelet.empty()) particles_.platelet[i] = static_cast<Real>(description_.effects.platelets->fresh);
     if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
     std::fill_n(passes_.acceleration() + std::size_t{i} * 4, 4, Real(0));
     return true;
@@ -187,8 +198,8 @@ template <class Real>
 void WorldCore<Real>::move(double dt) {
   executor_->run(shares_, [&](int share) {
     drift_results_[static_cast<std::size_t>(share)] =
-        kickAndDrift(particles_, passes_.acceleration(), static_cast<Real>(0.5 * dt), static_cast<Real>(dt / h_), h_, domain_,
-                     wounds_, ShareRange{count_, share, shares_}, grid_.cells());
+        kickAndDrift(particles_, passes_.acceleration(), static_cast<Real>(opening_ * dt), static_cast<Real>(dt / h_), h_,
+                     domain_, wounds_, ShareRange{count_, share, shares_}, grid_.cells());
   });
   Bounds<Real> bounds;
   for (int share = 0; share < shares_; ++share) {
@@ -225,10 +236,14 @@ void WorldCore<Real>::computeAccelerations() {
   clock_.lap(Stage::tissue);
   counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
   clock_.lap(Stage::density);
-  const double growth_time = kContactGrowth * description_.spacing / speed_of_sound_;
-  passes_.setContactGrowth(static_cast<Real>(std::min(1.0, (time_ - repulsion_start_) / growth_time)));
-  passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
-  if (surface_tension_) surface_tension_->add(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
+  if (literal_) {
+    literal_->add(grid_, particles_, passes_, count_, shares_, *executor_);
+  } else {
+    const double growth_time = kContactGrowth * description_.spacing / speed_of_sound_;
+    passes_.setContactGrowth(static_cast<Real>(std::min(1.0, (time_ - repulsion_start_) / growth_time)));
+    passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
+    if (surface_tension_) surface_tension_->add(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
+  }
   clock_.lap(Stage::force);
   if (solving_viscosity_) implicit_viscosity_->clearDrag(count_);
   walls_.addForces(particles_, passes_, shares_, *executor_, solving_viscosity_ ? implicit_viscosity_->drag() : nullptr);
@@ -237,14 +252,16 @@ void WorldCore<Real>::computeAccelerations() {
     counter(Counter::force_expired) += events.expired;
     counter(Counter::force_without_fluid) += events.without_fluid;
   }
+  if (description_.planar) lockLayer(passes_.acceleration(), count_, shares_, *executor_);
   clock_.lap(Stage::body);
 }
 
 template <class Real>
 void WorldCore<Real>::finishStep(double dt) {
   executor_->run(shares_, [&](int share) {
-    kick_results_[static_cast<std::size_t>(share)] = closingKick(
-        particles_, passes_.acceleration(), gravity_, static_cast<Real>(0.5 * dt), caps_, ShareRange{count_, share, shares_});
+    kick_results_[static_cast<std::size_t>(share)] =
+        closingKick(particles_, passes_.acceleration(), gravity_, static_cast<Real>((1.0 - opening_) * dt), caps_,
+                    ShareRange{count_, share, shares_});
   });
   KickResult<Real>& total = kick_results_[0];
   for (int share = 1; share < shares_; ++share) {
@@ -258,6 +275,7 @@ void WorldCore<Real>::finishStep(double dt) {
   faulted_ = !total.finite;
   if (faulted_) return;
   if (solving_viscosity_ && dt > 0.0) solveViscosity(dt);
+  if (literal_) literal_->diffuse(particles_, passes_, static_cast<Real>(dt), count_, shares_, *executor_);
   if (core_radius_ && dt > 0.0) {
     passes_.setReach(core_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
   }

@@ -10,6 +10,7 @@
 #include "service/sph/effects/applied_force.h"
 #include "service/sph/effects/core_radius.h"
 #include "service/sph/effects/implicit_viscosity.h"
+#include "service/sph/effects/literal_forces.h"
 #include "service/sph/effects/surface_tension.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
@@ -84,6 +85,7 @@ class WorldCore final : public World {
   MotionCaps<Real> caps_;
   std::array<Real, 3> gravity_{};
   TimeStepLimits limits_;
+  double opening_ = 0.5;  // part of the kick before the drift: a half, or symplectic Euler's whole
 
   std::unique_ptr<Executor> executor_;
   int shares_ = 1;
@@ -93,6 +95,7 @@ class WorldCore final : public World {
   WallEffects<Real> walls_;
   WoundSet wounds_;
   std::optional<AppliedForce<Real>> applied_force_;
+  std::optional<LiteralForces<Real>> literal_;
   std::optional<CoreRadius<Real>> core_radius_;
   std::optional<ImplicitViscosity<Real>> implicit_viscosity_;
   bool solving_viscosity_ = false;  // implicitly, in this step

@@ -94,15 +94,26 @@ struct FluidBlock {
   Vec3 upper = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
   double jitter = 0.0;              ///< uniform, of each coordinate, in spacings
-  std::optional<double> viscosity;  ///< Pa s
+  std::optional<double> viscosity;  ///< Pa s, whatever the shear rate
+  std::optional<double> platelet;   ///< P, 0 to 1; without it PlateletSettings::fresh
 };
+
+/// sound: the paper's method with the corrections of effects/. literal: the paper's equations as printed, only the sign of (31)
+/// mended, for tests of its claims; literal_model.h says what acts.
+enum class Model { sound, literal };
 
 struct WorldDescription {
   std::uint64_t seed = 1;
+  Model model = Model::sound;
+  LiteralSettings literal;  ///< read by the literal model only
+  /// A single layer of thickness dx that stays at its height: two-dimensional kernels, z, vz and az locked. Without tissue and
+  /// wounds.
+  bool planar = false;
   Domain domain;
   std::uint32_t capacity = 0;  ///< most particles at any time
   double spacing = 0.001;      ///< dx, m
   double support_ratio = 2.0;  ///< h/dx
+  /// Of the sound model.
   KernelType kernel = KernelType::wendland_c2;
   double rest_density = 1060.0;  ///< kg/m^3
   Compressibility compressibility;
@@ -115,6 +126,10 @@ struct WorldDescription {
 
   double supportRadius() const { return support_ratio * spacing; }
   double particleVolume() const { return spacing * spacing * spacing; }
+  /// Of density, of the rest lattice and of tissue: poly6 in the literal model.
+  SmoothingKernel densityKernel() const {
+    return {model == Model::literal ? KernelType::poly6 : kernel, supportRadius(), planar ? spacing : 0.0};
+  }
 };
 
 /// The numerical speed of sound of a description, m/s: physics.md section 2, the scene's wounds included.

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <type_traits>
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/integrate/time_step.h"
+#include "service/sph/literal_model.h"
 #include "service/sph/passes/pair_passes.h"
 #include "service/sph/passes/sweep_table.h"
 #include "service/sph/rest_lattice.h"
@@ -59,6 +61,7 @@ inline PairSet pairSet(const WorldDescription& description) {
 /// The largest viscosity of any particle, Pa s; 0 without the effect.
 inline double largestViscosity(const WorldDescription& description) {
   if (!description.effects.viscosity) return 0.0;
+  if (description.model == Model::literal) return largestLiteralViscosity(description);
   double largest = description.effects.viscosity->viscosity;
   for (const FluidBlock& block : description.fluid_blocks) largest = std::max(largest, block.viscosity.value_or(0.0));
   return largest;
@@ -82,6 +85,7 @@ inline double largestPossibleViscosity(const WorldDescription& description) {
 inline bool mayNeedImplicitViscosity(const WorldDescription& description, double speed_of_sound) {
   const auto& viscosity = description.effects.viscosity;
   if (!viscosity || viscosity->solve == ViscositySolve::explicit_) return false;
+  if (description.model == Model::literal || description.planar) return false;
   if (description.kernel != KernelType::wendland_c2) return false;  // its sweeps are compiled for one kernel
   if (viscosity->solve == ViscositySolve::implicit) return true;
   const double h = description.supportRadius() * radiusBounds(description).smallest;
@@ -107,8 +111,12 @@ inline TimeStepLimits timeStepLimits(const WorldDescription& description, double
   limits.scene = description.max_dt;
   const double viscosity = largestViscosity(description);
   const double h = description.supportRadius() * radiusBounds(description).smallest;
-  limits.contact = contactLimit(description.effects.repulsion);
   if (viscosity > 0.0) limits.viscous = 0.045 * h * h * description.rest_density / viscosity;
+  if (description.model == Model::literal) {
+    limits.scene = std::min(limits.scene, literalTimeStep(description, speed_of_sound));
+    return limits;
+  }
+  limits.contact = contactLimit(description.effects.repulsion);
   if (const auto& tension = description.effects.surface_tension; tension && tension->coefficient > 0.0) {
     const double spacing3 = description.particleVolume();
     limits.capillary = 0.25 * std::sqrt(description.rest_density * spacing3 / (2.0 * std::numbers::pi * tension->coefficient));
@@ -116,12 +124,21 @@ inline TimeStepLimits timeStepLimits(const WorldDescription& description, double
   return limits;
 }
 
+/// Of the kernel for density and of that for the pressure's gradient, over pi h^3 in a planar world, too.
+inline KernelNorms pairNorms(const WorldDescription& description) {
+  const bool literal = description.model == Model::literal;
+  const KernelNorms density = kernelNorms(description.densityKernel().type, description.planar);
+  const KernelNorms gradient = literal ? kernelNorms(KernelType::spiky, description.planar) : density;
+  const double layers = description.planar ? description.support_ratio : 1.0;
+  return {layers * density.weight, layers * gradient.gradient};
+}
+
 /// Prefactors of pressure-inl.h and viscosity-inl.h.
 template <class Real>
 PairConstants<Real> pairConstants(const WorldDescription& description, const RestLattice& lattice, double speed_of_sound) {
   const double h = description.supportRadius();
   const double per_volume = lattice.particle_mass / (std::numbers::pi * h * h * h);
-  const KernelNorms norms = kernelNorms(description.kernel);
+  const KernelNorms norms = pairNorms(description);
   const double laplacian = 2.0 * norms.gradient * per_volume / (h * h) * lattice.viscosity_factor;
   PairConstants<Real> constants;
   constants.mass_weight = static_cast<Real>(norms.weight * per_volume);
@@ -130,6 +147,11 @@ PairConstants<Real> pairConstants(const WorldDescription& description, const Res
     constants.stiffness = static_cast<Real>(speed_of_sound * speed_of_sound);
     constants.background = static_cast<Real>(description.effects.pressure->background_pressure);
     constants.pressure_scale = static_cast<Real>(norms.gradient * per_volume / h);
+  }
+  if (description.model == Model::literal) {
+    if (description.effects.pressure) constants.stiffness = static_cast<Real>(literalStiffness(description, speed_of_sound));
+    constants.pressure_floor = std::numeric_limits<Real>::lowest();
+    return constants;  // the rest is literalJob's
   }
   if (description.effects.viscosity) {
     const double mean = viscosityVaries(description) ? 2.0 : description.effects.viscosity->viscosity;
@@ -151,7 +173,7 @@ PairConstants<Real> pairConstants(const WorldDescription& description, const Res
 
 inline PassChoice passChoice(const WorldDescription& description) {
   const auto& periodic = description.domain.periodic;
-  return {description.kernel, periodic[0] || periodic[1] || periodic[2]};
+  return {description.kernel, periodic[0] || periodic[1] || periodic[2], description.model == Model::literal};
 }
 
 inline SweepChoice sweepChoice(const WorldDescription& description) {
@@ -159,6 +181,10 @@ inline SweepChoice sweepChoice(const WorldDescription& description) {
 }
 
 inline PairLayout pairLayout(const WorldDescription& description) {
+  if (description.model == Model::literal) {
+    const LiteralSet set = literalSet(description);
+    return {.set = {.pressure = set.pressure}, .tissue = !description.tissue.empty(), .least_groups = literalRecordGroups(set)};
+  }
   return {pairSet(description), !description.tissue.empty(), description.effects.surface_tension.has_value()};
 }
 

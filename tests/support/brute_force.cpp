@@ -56,7 +56,7 @@ sph::RestLattice factorsAt(const sph::WorldDescription& d, double radius) {
 }  // namespace
 
 OracleFields bruteForce(const sph::WorldDescription& d, sph::PairSet set, const OracleParticles& particles) {
-  const sph::SmoothingKernel kernel{d.kernel, d.supportRadius()};
+  const sph::SmoothingKernel kernel = d.densityKernel();
   const sph::RestLattice lattice = sph::calibrateRestLattice(kernel, d.spacing, d.rest_density);
   const double mass = lattice.particle_mass;
   const double c0 = sph::speedOfSound(d);

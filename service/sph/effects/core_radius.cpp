@@ -1,7 +1,5 @@
 #include "service/sph/effects/core_radius.h"
 
-#include <algorithm>
-
 #include "service/sph/cube_root.h"
 #include "service/sph/rest_lattice.h"
 #include "service/sph/share_range.h"
@@ -36,7 +34,8 @@ Real CoreRadius<Real>::update(Particles<Real>& p, const Real* density, std::uint
     Real most = Real(1);
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       if (p.driver[i] != 0) continue;
-      const Real ratio = std::min(std::max(least_ratio_, rest_density_ / density[i]), most_ratio_);
+      const Real volume = Real(1) / (Real(1) + followed(density[i] / rest_density_ - Real(1)));
+      const Real ratio = std::min(std::max(least_ratio_, volume), most_ratio_);
       const Real moved = p.radius[i] + relaxation_ * (cubeRoot(ratio) - p.radius[i]);
       p.radius[i] = std::min(std::max(smallest_, moved), largest_);
       most = std::max(most, p.radius[i]);

@@ -22,7 +22,8 @@ inline constexpr std::array<EffectRow, 8> kEffects{{
       "Brookshaw form with harmonic mean, calibrated on the rest lattice, instead of the Laplacian of (33)"},
      [](const EffectSettings& s) { return s.viscosity.has_value(); }},
     {{"core_radius", "(34)", "the paper; Hernquist & Katz 1989",
-      "bounded, relaxed over steps, kernels averaged over a pair, calibrated on the rest lattice at each radius"},
+      "bounded, relaxed over steps, blind to 15 % of density, kernels averaged over a pair, calibrated on the rest lattice at "
+      "each radius"},
      [](const EffectSettings& s) { return s.core_radius.has_value(); }},
     {{"repulsion", "(35)(36)", "the paper",
       "added to the other forces, D scaled by m c0^2 dx, pe at most 2, pairs in contact damped, its own limit of the time step"},

@@ -9,7 +9,7 @@
 namespace bleedsim::sph {
 namespace {
 
-constexpr double kJump = 1.56;    // surface_tension.h
+constexpr double kJump = 1.56;     // surface_tension.h
 constexpr double kSharpest = 2.0;  // |kappa| h
 constexpr double kDamping = 0.2;   // nu over h sqrt(sigma/(rho0 h))
 // Below this part along the tissue, a normal does not say where the contact line is.
@@ -112,10 +112,10 @@ template <class Real>
 void SurfaceTension<Real>::addFreed(const CellGrid<Real>& grid, const Particles<Real>& p, PairPasses<Real>& passes,
                                     std::uint32_t count, int shares, Executor& executor) {
   bodies_.find(grid, p, count, shares, executor);
-  const auto firstOf = [&](int share) { return grid.view().rowBegin(grid.firstRow(share, shares, count)); };
+  const auto first_of = [&](int share) { return grid.view().rowBegin(grid.firstRow(share, shares, count)); };
   executor.run(shares, [&](int share) {
-    const std::uint32_t end = firstOf(share + 1);
-    for (std::uint32_t first = firstOf(share); first < end; first = bodies_.cellEnd(first)) {
+    const std::uint32_t end = first_of(share + 1);
+    for (std::uint32_t first = first_of(share); first < end; first = bodies_.cellEnd(first)) {
       totals_[first] = totalOf(first, bodies_.cellEnd(first));
     }
   });
@@ -128,8 +128,8 @@ void SurfaceTension<Real>::addFreed(const CellGrid<Real>& grid, const Particles<
     body.held = body.held || cell.held;
   }
   executor.run(shares, [&](int share) {
-    const std::uint32_t end = firstOf(share + 1);
-    for (std::uint32_t first = firstOf(share); first < end; first = bodies_.cellEnd(first)) {
+    const std::uint32_t end = first_of(share + 1);
+    for (std::uint32_t first = first_of(share); first < end; first = bodies_.cellEnd(first)) {
       const Total& body = totals_[bodies_.bodyOf(first)];
       Real mean[3] = {};
       for (std::size_t a = 0; a < 3 && !body.held; ++a) {

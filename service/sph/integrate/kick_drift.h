@@ -1,5 +1,5 @@
 // Kick-drift-kick (velocity Verlet): v += a dt/2, x += v dt, new a, v += a dt/2. Time-reversible, so a closed box keeps its
-// energy.
+// energy. With the whole kick before the drift and none after it this is symplectic Euler, as the literal model has it.
 #pragma once
 
 #include <array>

@@ -246,7 +246,7 @@ class DensityPass {
     Real density = job_.mass_weight * weight;
     if constexpr (kTissue) density += job_.rest_density * job_.share[i];
     const Real inverse = Real(1) / density;
-    const Real pressure = std::max(Real(0), job_.background + job_.stiffness * (density - job_.rest_density));
+    const Real pressure = std::max(job_.pressure_floor, job_.background + job_.stiffness * (density - job_.rest_density));
     Real* record = job_.record + static_cast<std::size_t>(i) * stride_;
     record[kRecordPressure] = job_.pressure_scale * pressure * (job_.symmetric ? Real(0.5) : inverse * inverse);
     if (job_.groups > 1) record[kRecordInverseDensity] = inverse;

@@ -22,6 +22,7 @@ struct PairConstants {
   Real rest_density = 0;
   Real stiffness = 0;
   Real background = 0;
+  Real pressure_floor = 0;
   Real pressure_scale = 0;
   Real viscosity_scale = 0;
   Real platelet_scale = 0;
@@ -36,6 +37,7 @@ struct PairLayout {
   PairSet set;
   bool tissue = false;
   bool tension = false;  ///< the records hold the surface's normals
+  int least_groups = 1;  ///< of record fields, for passes that the set does not name
 };
 
 template <class Real>
@@ -49,7 +51,7 @@ class PairPasses {
         force_function_{table.force[layout.set.index()]},
         inviscid_function_{table.force[withoutViscosity(layout.set).index()]},
         symmetric_{layout.set.pressure == PressureTerm::symmetric},
-        groups_{recordGroups(layout.set, layout.tension)},
+        groups_{std::max(layout.least_groups, recordGroups(layout.set, layout.tension))},
         constants_{constants},
         lattice_{lattice},
         record_{(std::size_t{capacity} + 1) * static_cast<std::size_t>(4 * groups_), 37},
@@ -107,6 +109,7 @@ class PairPasses {
       job.rest_density = constants_.rest_density;
       job.stiffness = constants_.stiffness;
       job.background = constants_.background;
+      job.pressure_floor = constants_.pressure_floor;
       job.pressure_scale = constants_.pressure_scale;
       job.symmetric = symmetric_;
       job.reach2 = reach_ * reach_;
@@ -212,7 +215,8 @@ class PairPasses {
   }
   /// Of the equation of state, Pa.
   Real pressureAt(Real density) const {
-    return std::max(Real(0), constants_.background + constants_.stiffness * (density - constants_.rest_density));
+    return std::max(constants_.pressure_floor,
+                    constants_.background + constants_.stiffness * (density - constants_.rest_density));
   }
 
  private:

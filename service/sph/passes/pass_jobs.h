@@ -33,6 +33,7 @@ struct DensityJob {
   Real rest_density = 0;                 ///< kg/m^3
   Real stiffness = 0;                    ///< c0^2, m^2/s^2; 0 without pressure
   Real background = 0;                   ///< Pa
+  Real pressure_floor = 0;               ///< Pa: 0, or none in the literal model
   Real pressure_scale = 0;               ///< makes the record's pressure term, kRecordPressure
   bool symmetric = false;                ///< kRecordPressure is for (17)
 

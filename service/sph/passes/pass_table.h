@@ -22,6 +22,7 @@ struct PassTable {
 struct PassChoice {
   KernelType kernel = KernelType::wendland_c2;
   bool periodic = false;
+  bool literal = false;  ///< the literal model's density pass with poly6, whatever the kernel; no force passes (literal_table.h)
 };
 
 /// Null if this build or machine lacks the target. `automatic` gives the best.

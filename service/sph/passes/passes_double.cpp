@@ -1,4 +1,5 @@
 // The double precision reference: the scalar twin only.
+#include "service/sph/passes/literal_table.h"
 #include "service/sph/passes/make_table-inl.h"
 
 namespace bleedsim::sph {
@@ -15,6 +16,7 @@ const PassTable<double>& tableOf(bool periodic) {
 }  // namespace
 
 const PassTable<double>& referencePasses(const PassChoice& choice) {
+  if (choice.literal) return referenceLiteralPasses(choice.periodic).passes;
   if (choice.kernel == KernelType::cubic_spline)
     return tableOf<HWY_NAMESPACE::CubicSpline, HWY_NAMESPACE::SetRange::plain>(choice.periodic);
   return tableOf<HWY_NAMESPACE::WendlandC2, HWY_NAMESPACE::SetRange::all>(choice.periodic);

@@ -3,6 +3,7 @@
 #include <hwy/targets.h>
 
 #include "service/sph/passes/float_tables.h"
+#include "service/sph/passes/literal_table.h"
 #include "service/sph/world.h"
 
 namespace bleedsim::sph {
@@ -45,6 +46,7 @@ const PassTable<float>* findPasses(SimdTarget target, const PassChoice& choice) 
   const std::vector<SimdTarget> available = availableSimdTargets();
   if (target == SimdTarget::automatic) target = available.front();
   if (std::find(available.begin(), available.end(), target) == available.end()) return nullptr;
+  if (choice.literal) return &literalPasses(target, choice.periodic).passes;
   if (choice.kernel == KernelType::cubic_spline) return splinePasses(target, choice.periodic);
   return choice.periodic ? periodicPasses(target) : boundedPasses(target);
 }

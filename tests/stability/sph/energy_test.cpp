@@ -57,12 +57,14 @@ TEST_P(EnergyTest, periodicBoxKeepsAThousandth) {
   EXPECT_NEAR(energyKept(scene), 1.0, 0.0005);
 }
 
-TEST_P(EnergyTest, coreRadiusKeepsAPercent) {
+// (34) that followed every ripple would end at 49 times the energy (core_radius.h); without (34) this box ends at 0.999. Measured
+// 0.9995 to 1.0003: the bound is that of the box without the effect.
+TEST_P(EnergyTest, coreRadiusKeepsWhatABoxWithoutItKeeps) {
   sph::WorldDescription periodic = swirl(periodicBox({kAcross, kAcross, kAcross}, 0.05), GetParam(), 2.0);
   periodic.effects.core_radius.emplace();
   const double in_periodic = energyKept(periodic);
   RecordProperty("periodic_energy_ratio", std::to_string(in_periodic));
-  EXPECT_NEAR(in_periodic, 1.0, 0.01);
+  EXPECT_NEAR(in_periodic, 1.0, 0.002);
   sph::WorldDescription closed = swirl(closedBox({kAcross, kAcross, kAcross}, 0.05), GetParam(), 1.0);
   closed.effects.core_radius.emplace();
   const double in_closed = energyKept(closed);

@@ -58,6 +58,20 @@ TEST_P(Allocation, StepFrameStatsAndHashAllocateNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Threads, Allocation, testing::Values(1, 2));
 
+TEST(AllocationOfTheLiteralModel, StepAllocatesNothing) {
+  WorldDescription description = test::freeBlock({8, 8, 8}, 0.2);
+  description.model = Model::literal;
+  description.effects.surface_tension.emplace();
+  description.effects.platelets.emplace();
+  description.effects.repulsion.emplace();
+  const auto world = test::makeWorld(description);
+  bool stepped = world->step(1.0).ok();
+  const std::uint64_t before = test::allocationCount();
+  for (int k = 0; k < 50; ++k) stepped = world->step(1.0).ok() && stepped;
+  EXPECT_EQ(test::allocationCount(), before);
+  EXPECT_TRUE(stepped);
+}
+
 TEST(AllocationCounter, Counts) {
   const std::uint64_t before = test::allocationCount();
   FrameBuffer frame;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "service/sph/effects/literal_forces.h"
 #include "service/sph/executor.h"
 #include "service/sph/neighbors/cell_grid.h"
 #include "service/sph/passes/pair_passes.h"
@@ -35,13 +37,16 @@ class PassRig {
               shares,
               radiusBounds(description).largest},
         passes_{tableOf(description, target),
-                {.set = pairSet(description)},
+                layoutOf(description),
                 pairConstants<Real>(description, latticeOf(description), speedOfSound(description)),
                 capacity_,
                 description.support_ratio * radiusBounds(description).largest,
                 shares,
                 latticeFactors<Real>(description)} {
     for (std::uint32_t i = 0; i < capacity_; ++i) place(i, particles);
+    if (description.model == Model::literal) {
+      literal_.emplace(description, latticeOf(description), speedOfSound(description), viscosityVaries(description), target);
+    }
     run();
   }
 
@@ -96,7 +101,11 @@ class PassRig {
   }
   static std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
   static RestLattice latticeOf(const WorldDescription& d) {
-    return calibrateRestLattice({d.kernel, d.supportRadius()}, d.spacing, d.rest_density);
+    return calibrateRestLattice(d.densityKernel(), d.spacing, d.rest_density);
+  }
+  static PairLayout layoutOf(const WorldDescription& d) {
+    if (d.model == Model::literal) return pairLayout(d);
+    return {.set = pairSet(d)};
   }
 
   void place(std::uint32_t i, const test::OracleParticles& particles) {
@@ -127,7 +136,11 @@ class PassRig {
       passes_.pack(to, sorted_);
     });
     overflowed_ = passes_.density(grid_, sorted_, nullptr, count, shares_, *executor_);
-    passes_.force(grid_, sorted_, count, shares_, *executor_, true);
+    if (literal_) {
+      literal_->add(grid_, sorted_, passes_, count, shares_, *executor_);
+    } else {
+      passes_.force(grid_, sorted_, count, shares_, *executor_, true);
+    }
     density_.resize(capacity_);
     acceleration_.resize(capacity_);
     platelet_rate_.resize(capacity_);
@@ -146,6 +159,7 @@ class PassRig {
   Particles<Real> placed_, sorted_;
   CellGrid<Real> grid_;
   PairPasses<Real> passes_;
+  std::optional<LiteralForces<Real>> literal_;
   std::uint64_t overflowed_ = 0;
   std::vector<double> density_;
   std::vector<Vec3> acceleration_;

@@ -154,7 +154,7 @@ TEST(TensionSweeps, PullACavityShut) {
 
 TEST(TensionSweeps, StayFiniteOnSparseShapes) {
   const double dx = test::kSpacing;
-  const auto expectFinite = [](const std::vector<Vec3>& positions, const char* name) {
+  const auto expect_finite = [](const std::vector<Vec3>& positions, const char* name) {
     WorldDescription description = withTension(test::emptyScene());
     OracleParticles particles;
     for (const Vec3& position : positions) {
@@ -176,16 +176,16 @@ TEST(TensionSweeps, StayFiniteOnSparseShapes) {
     filament.push_back({i * dx, 0.0, 0.0});
     for (int j = 0; j < 10; ++j) film.push_back({i * dx, j * dx, 0.0});
   }
-  expectFinite({Vec3::Zero()}, "isolated particle");
-  expectFinite({Vec3::Zero(), {dx, 0.0, 0.0}}, "pair");
-  expectFinite({Vec3::Zero(), Vec3::Zero()}, "coincident pair");
-  expectFinite(film, "film");
-  expectFinite(filament, "filament");
+  expect_finite({Vec3::Zero()}, "isolated particle");
+  expect_finite({Vec3::Zero(), {dx, 0.0, 0.0}}, "pair");
+  expect_finite({Vec3::Zero(), Vec3::Zero()}, "coincident pair");
+  expect_finite(film, "film");
+  expect_finite(filament, "filament");
 }
 
 // Two bodies that do not touch: each keeps its own momentum; held by tissue, a body keeps its force.
 TEST(TensionSweeps, MoveNoFreeBody) {
-  const auto sumsOf = [](double gap, bool tissue) {
+  const auto sums_of = [](double gap, bool tissue) {
     WorldDescription description = withTension(test::freeBlock({6, 5, 4}, 0.3));
     FluidBlock other = description.fluid_blocks.front();
     other.lower.x() += 0.006 + gap;
@@ -203,13 +203,13 @@ TEST(TensionSweeps, MoveNoFreeBody) {
     }
     return std::array<double, 2>{sums[0].norm() / size, sums[1].norm() / size};
   };
-  const auto apart = sumsOf(0.0026, false);  // more than h = 2 mm between the jittered faces
+  const auto apart = sums_of(0.0026, false);  // more than h = 2 mm between the jittered faces
   EXPECT_LT(apart[0], 1e-6);
   EXPECT_LT(apart[1], 1e-6);
-  const auto joined = sumsOf(0.001, false);
+  const auto joined = sums_of(0.001, false);
   EXPECT_GT(joined[0], 1e-5);
   EXPECT_GT(joined[1], 1e-5);
-  const auto held = sumsOf(0.0026, true);
+  const auto held = sums_of(0.0026, true);
   EXPECT_GT(held[0], 1e-5);
   EXPECT_LT(held[1], 1e-6);
 }

@@ -83,7 +83,7 @@ TEST(TensionWorld, RefusesWhatHasNoMeaning) {
 
 // a = -k f(d) n, f = 1 for d < dx, 0 at h. A lone particle without other effects: v = a dt after one step of 1 us.
 TEST(Adhesion, PullsToTissueWithinTheSupportRadius) {
-  const auto pullAt = [](double distance) {
+  const auto pull_at = [](double distance) {
     WorldDescription scene = test::emptyScene();
     scene.effects.adhesion = AdhesionSettings{7.0};
     scene.tissue.push_back({.name = "ceiling", .shape = PlaneShape{.point = Vec3::Zero(), .normal = {0.0, 0.0, -1.0}}});
@@ -93,11 +93,11 @@ TEST(Adhesion, PullsToTissueWithinTheSupportRadius) {
     EXPECT_TRUE(world->step(1.0).ok());
     return test::velocityOf(test::frameOf(*world), 0).z() / test::statsOf(*world).dt;
   };
-  EXPECT_NEAR(pullAt(0.0006), 7.0, 1e-3);
-  EXPECT_NEAR(pullAt(0.00099), 7.0, 1e-3);
-  EXPECT_NEAR(pullAt(0.0015), 3.5, 7e-3);
-  EXPECT_NEAR(pullAt(0.0019), 0.7, 7e-3);
-  EXPECT_EQ(pullAt(0.0021), 0.0);
+  EXPECT_NEAR(pull_at(0.0006), 7.0, 1e-3);
+  EXPECT_NEAR(pull_at(0.00099), 7.0, 1e-3);
+  EXPECT_NEAR(pull_at(0.0015), 3.5, 7e-3);
+  EXPECT_NEAR(pull_at(0.0019), 0.7, 7e-3);
+  EXPECT_EQ(pull_at(0.0021), 0.0);
 }
 
 }  // namespace

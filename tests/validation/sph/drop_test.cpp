@@ -52,7 +52,7 @@ double corePressure(const sph::World& world) {
   int count = 0;
   for (std::size_t i = 0; i < frame.count; ++i) {
     if ((positionOf(frame, i) - center).norm() > 0.5 * radiusOf(world)) continue;
-    sum += std::max(0.0, c2 * (double{frame.density[i]} - kRestDensity));
+    sum += std::max(0.0, c2 * (static_cast<double>(frame.density[i]) - kRestDensity));
     ++count;
   }
   return sum / count;
