@@ -9,6 +9,7 @@
 #include "service/lab/paper/claims.h"
 #include "service/lab/paper/fig5.h"
 #include "service/lab/paper/growth.h"
+#include "service/lab/paper/intruders.h"
 #include "service/lab/paper/paper_files.h"
 #include "service/lab/paper/table2.h"
 #include "service/lab/progress.h"
@@ -36,6 +37,8 @@ struct Experiment {
 };
 
 constexpr std::array kExperiments{
+    Experiment{"fig2", "Fast particles through a block in two dimensions, with and without repulsion", runFig2, false, false,
+               true, true},
     Experiment{"fig5", "Blood from a round wound with each improvement switched off in turn", runFig5, true, false, true},
     Experiment{"fig6", "How the blood of a round wound spreads",
                [](const PaperOptions& options, const ProgressReport& progress) { return runGrowth(options, "fig6", progress); },

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "service/lab/paper/claims.h"
-#include "service/lab/paper/paper_kernel.h"
 #include "service/sph/seeding.h"
 
 namespace bleedsim::lab {
@@ -61,7 +60,7 @@ Measured meanOf(const std::array<double, kSeeds>& values) {
 
 /// First percentile of the nearest distances after a damped fall into rest under pressure, by (17) with the gradient of `kernel`,
 /// density by poly6 (20). The cube is a quarter denser than rest, so that pressure acts everywhere.
-double settledDistance(const PaperKernel& kernel, std::uint64_t seed) {
+double settledDistance(const sph::SmoothingKernel& kernel, std::uint64_t seed) {
   constexpr double kRest = 0.8;
   constexpr double kDt = 0.1;
   constexpr double kKept = 0.95;  // of the velocity, a step
@@ -70,7 +69,7 @@ double settledDistance(const PaperKernel& kernel, std::uint64_t seed) {
   Cloud cloud = jitteredCube(jitter);
   Cloud velocity;
   velocity.fill(Vec3::Zero());
-  const PaperKernel poly6{PaperKernel::Type::poly6, kSupport};
+  const sph::SmoothingKernel poly6{sph::KernelType::poly6, kSupport, 0.0};
   for (int step = 0; step < kSteps; ++step) {
     std::array<double, kCount> density;
     density.fill(poly6.value(0.0));
@@ -103,12 +102,12 @@ double settledDistance(const PaperKernel& kernel, std::uint64_t seed) {
 
 /// (sum v_i a_i)/(sum v_i^2) of random velocities, a_i = sum_j (v_j - v_i) lap W: above 0 the particles gain speed. In units of
 /// what the viscosity kernel (33) takes away on the same particles.
-double viscousGrowth(const PaperKernel& kernel, std::uint64_t seed) {
+double viscousGrowth(const sph::SmoothingKernel& kernel, std::uint64_t seed) {
   sph::JitterSource jitter{seed};
   const Cloud cloud = jitteredCube(jitter);
   Cloud velocity;
   for (Vec3& v : velocity) v = {jitter.next(), jitter.next(), jitter.next()};
-  const PaperKernel viscosity{PaperKernel::Type::viscosity, kSupport};
+  const sph::SmoothingKernel viscosity{sph::KernelType::viscosity, kSupport, 0.0};
   double power = 0.0;
   double loss = 0.0;
   forPairs(cloud, kSupport, [&](std::size_t i, std::size_t j, const Vec3&, double r) {
@@ -119,16 +118,16 @@ double viscousGrowth(const PaperKernel& kernel, std::uint64_t seed) {
   return power / loss;
 }
 
-double leastLaplacian(PaperKernel::Type type) {
-  const PaperKernel kernel{type, 1.0};
+double leastLaplacian(sph::KernelType type) {
+  const sph::SmoothingKernel kernel{type, 1.0, 0.0};
   double least = kernel.laplacian(1.0);
   for (int k = 100; k < 1000; ++k) least = std::min(least, kernel.laplacian(1e-3 * k));
   return least;
 }
 
 /// Up to which q the Laplacian is negative.
-double negativeUpTo(PaperKernel::Type type) {
-  const PaperKernel kernel{type, 1.0};
+double negativeUpTo(sph::KernelType type) {
+  const sph::SmoothingKernel kernel{type, 1.0, 0.0};
   double last = 0.0;
   for (int k = 1; k < 1000; ++k) {
     if (kernel.laplacian(1e-3 * k) < 0.0) last = 1e-3 * k;
@@ -143,8 +142,8 @@ Claim clusterClaim() {
   std::array<double, kSeeds> poly6{};
   for (int seed = 0; seed < kSeeds; ++seed) {
     const auto at = static_cast<std::size_t>(seed);
-    spiky[at] = settledDistance({PaperKernel::Type::spiky, kSupport}, at + 1);
-    poly6[at] = settledDistance({PaperKernel::Type::poly6, kSupport}, at + 1);
+    spiky[at] = settledDistance({sph::KernelType::spiky, kSupport, 0.0}, at + 1);
+    poly6[at] = settledDistance({sph::KernelType::poly6, kSupport, 0.0}, at + 1);
   }
   Claim claim{.sentence = "poly6 for pressure clusters particles",
               .figure = "first percentile of nearest distances, spacings",
@@ -165,8 +164,8 @@ Claim laplacianClaim() {
               .claimed = Direction::smaller,
               .evidence = {},
               .verdict = Verdict::depends};
-  const Measured reference{leastLaplacian(PaperKernel::Type::viscosity), 0.0};
-  for (const auto& [name, type] : {std::pair{"poly6", PaperKernel::Type::poly6}, std::pair{"spiky", PaperKernel::Type::spiky}}) {
+  const Measured reference{leastLaplacian(sph::KernelType::viscosity), 0.0};
+  for (const auto& [name, type] : {std::pair{"poly6", sph::KernelType::poly6}, std::pair{"spiky", sph::KernelType::spiky}}) {
     Evidence evidence = compare(name, reference, Measured{leastLaplacian(type), 0.0}, Direction::smaller);
     evidence.note = "negative up to r = " + std::to_string(negativeUpTo(type)) + " h";
     claim.evidence.push_back(std::move(evidence));
@@ -184,18 +183,18 @@ Claim viscousGrowthClaim() {
               .evidence = {},
               .verdict = Verdict::depends};
   constexpr double kNear = 0.4;  // support radii
-  const auto add = [&](const std::string& name, PaperKernel::Type type) {
-    const double pair =
-        -PaperKernel{type, 1.0}.laplacian(kNear) / PaperKernel{PaperKernel::Type::viscosity, 1.0}.laplacian(kNear);
+  const auto add = [&](const std::string& name, sph::KernelType type) {
+    const double pair = -sph::SmoothingKernel{type, 1.0, 0.0}.laplacian(kNear) /
+                        sph::SmoothingKernel{sph::KernelType::viscosity, 1.0, 0.0}.laplacian(kNear);
     claim.evidence.push_back(compare(name + " pair", Measured{0.0, 0.0}, Measured{pair, 0.0}, Direction::larger));
     claim.evidence.back().note = "two particles 0.4 h apart";
     std::array<double, kSeeds> growth{};
-    for (std::size_t seed = 0; seed < growth.size(); ++seed) growth[seed] = viscousGrowth({type, kSupport}, seed + 1);
+    for (std::size_t seed = 0; seed < growth.size(); ++seed) growth[seed] = viscousGrowth({type, kSupport, 0.0}, seed + 1);
     claim.evidence.push_back(compare(name + " body", Measured{0.0, 0.0}, meanOf(growth), Direction::larger));
     claim.evidence.back().note = "random velocities in bulk, h = 2 dx";
   };
-  add("poly6", PaperKernel::Type::poly6);
-  add("spiky", PaperKernel::Type::spiky);
+  add("poly6", sph::KernelType::poly6);
+  add("spiky", sph::KernelType::spiky);
   conclude(claim);
   return claim;
 }

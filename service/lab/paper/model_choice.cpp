@@ -11,6 +11,7 @@ std::vector<ModelFace> facesOf(ModelChoice choice) {
 
 sph::WorldDescription inModel(const sph::WorldDescription& scene, const ModelFace& face) {
   sph::WorldDescription world = scene;
+  world.model = face.literal ? sph::Model::literal : sph::Model::sound;
   if (face.literal) world.effects.core_radius.reset();
   return world;
 }

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "service/lab/paper/claims.h"
-#include "service/lab/paper/paper_kernel.h"
 
 namespace bleedsim::lab {
 namespace {
@@ -162,10 +161,10 @@ Claim edgeErrorClaim() {
   const auto add = [&](const char* name, const std::array<double, 2>& errors) {
     claim.evidence.push_back(compare(name, Measured{errors[1], 0.0}, Measured{errors[0], 0.0}, Direction::larger));
   };
-  const sph::SmoothingKernel wendland{sph::KernelType::wendland_c2, kSupport};
+  const sph::SmoothingKernel wendland{sph::KernelType::wendland_c2, kSupport, 0.0};
   add("Wendland", edgeErrors([&](double r) { return wendland.slope(r); }, [&](double r) { return wendland.value(r); }, kSupport));
-  const PaperKernel spiky{PaperKernel::Type::spiky, kSupport};
-  const PaperKernel poly6{PaperKernel::Type::poly6, kSupport};
+  const sph::SmoothingKernel spiky{sph::KernelType::spiky, kSupport, 0.0};
+  const sph::SmoothingKernel poly6{sph::KernelType::poly6, kSupport, 0.0};
   add("paper's", edgeErrors([&](double r) { return spiky.slope(r); }, [&](double r) { return poly6.value(r); }, kSupport));
   conclude(claim);
   return claim;

@@ -98,6 +98,7 @@ void expectFig5(const std::string& model) {
 }
 
 TEST(PaperCommands, Fig5SoundHasSixRunsAndAVerdictForEachSentence) { expectFig5("sound"); }
+TEST(PaperCommands, Fig5LiteralHasFiveRunsAndAVerdictForEachSentence) { expectFig5("literal"); }
 
 void expectGrowth(const std::string& name) {
   const Folder folder{name};
@@ -117,6 +118,22 @@ void expectGrowth(const std::string& name) {
 
 TEST(PaperCommands, Fig6Grows) { expectGrowth("fig6"); }
 TEST(PaperCommands, Fig8GrowsAndTellsWhatIsCovered) { expectGrowth("fig8"); }
+
+TEST(PaperCommands, Fig2HasFourRunsInEachModel) {
+  const Folder folder{"fig2"};
+  const Json json = runJson(paper("fig2", {"--duration", "0.2", "-o", folder.text()}));
+  ASSERT_EQ(json["runs"].size(), 8u);
+  for (const Json& run : json["runs"]) {
+    EXPECT_EQ(run["failure"], "");
+    EXPECT_NEAR(run["time_s"].get<double>(), 0.2, 0.001);
+    // Rounding of 0.2 s of steps in float: 1e-6 of the momentum a particle and step, 400 steps.
+    EXPECT_LT(run["momentum_drift"].get<double>(), 1e-3) << run.dump();
+    if (run["intruders"].get<bool>()) EXPECT_GT(run["intruders_moved_m"].get<double>(), 0.0);
+  }
+  EXPECT_EQ(json["claims"].size(), 5u);
+  EXPECT_TRUE(folder.has("fig2_sound.png"));
+  EXPECT_TRUE(folder.has("fig2_literal.png"));
+}
 
 TEST(PaperCommands, ClaimsHaveNumbersAndVerdicts) {
   const Json json = runJson(paper("claims", {"--counts", "1000,2000", "--seconds", "0.2"}));

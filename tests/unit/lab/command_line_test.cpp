@@ -28,7 +28,7 @@ TEST(CommandLine, WithoutACommandItListsThem) {
 TEST(CommandLine, WithoutAnExperimentItListsThem) {
   const Outcome outcome = run({"paper"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.errors, testing::HasSubstr("fig5, fig6, fig8, table2, claims, all"));
+  EXPECT_THAT(outcome.errors, testing::HasSubstr("fig2, fig5, fig6, fig8, table2, claims, all"));
 }
 
 TEST(CommandLine, UnknownCommandsModelsAndTargetsAreRefused) {

@@ -6,6 +6,7 @@
 #include "service/lab/paper/claims.h"
 #include "service/lab/paper/fig5.h"
 #include "service/lab/paper/growth.h"
+#include "service/lab/paper/intruders.h"
 #include "service/lab/paper/table2.h"
 
 namespace bleedsim::lab {
@@ -15,6 +16,15 @@ TEST(IsInverse, TakesMinusOneAndAGoodFitOnly) {
   EXPECT_TRUE(isInverse({.exponent = -0.95, .factor = 1.0, .r2 = 0.99}));
   EXPECT_FALSE(isInverse({.exponent = -1.2, .factor = 1.0, .r2 = 0.99}));
   EXPECT_FALSE(isInverse({.exponent = -1.0, .factor = 1.0, .r2 = 0.9}));
+}
+
+// Two discs of radius r, r apart, share 2 r^2 (pi/3 - sqrt(3)/4): 39.1 % of one disc, 19.6 % of the sum. Raster of r/8: 1 %.
+TEST(OverlapOf, IsWhatTwoDiscsShare) {
+  const std::vector<float> apart{0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f};
+  EXPECT_EQ(overlapOf(apart, 0.45), 0.0);
+  const double shared = 2.0 * (std::numbers::pi / 3.0 - std::sqrt(3.0) / 4.0);
+  EXPECT_NEAR(overlapOf(apart, 1.0), shared / (2.0 * std::numbers::pi), 0.01);
+  EXPECT_EQ(overlapOf({}, 1.0), 0.0);
 }
 
 TEST(RimOf, IsTheCircleOfTheBowl) {
