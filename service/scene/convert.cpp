@@ -80,7 +80,8 @@ sph::FluidBlock toFluidBlock(const FluidBlock& block) {
                          .upper = toVec3(block.upper_m()),
                          .velocity = toVec3(block.velocity_m_per_s()),
                          .jitter = block.jitter(),
-                         .viscosity = std::nullopt};
+                         .viscosity = std::nullopt,
+                         .platelet = std::nullopt};
   if (block.has_viscosity_pa_s()) result.viscosity = block.viscosity_pa_s();
   return result;
 }
