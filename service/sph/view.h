@@ -35,6 +35,7 @@ void copyVisible(const Particles<Real>& p, const Real* density, std::uint32_t co
       frame.viscosity[n] =
           static_cast<float>(p.inverse_viscosity.empty() ? viscosity : 1.0 / static_cast<double>(p.inverse_viscosity[i]));
     }
+    if (attributes & kFramePlatelet) frame.platelet[n] = p.platelet.empty() ? 0.0f : static_cast<float>(p.platelet[i]);
     ++n;
   }
   frame.count = n;
@@ -103,7 +104,7 @@ std::uint64_t hashState(const Particles<Real>& p, std::uint32_t count, double ti
   hash.addBytes(&time, sizeof time);
   for (const AlignedArray<Real>* array : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz})
     hash.addBytes(array->data(), count * sizeof(Real));
-  for (const AlignedArray<Real>* array : {&p.inverse_viscosity, &p.platelet, &p.radius})
+  for (const AlignedArray<Real>* array : {&p.inverse_viscosity, &p.own_viscosity, &p.platelet, &p.radius})
     if (!array->empty()) hash.addBytes(array->data(), count * sizeof(Real));
   hash.addBytes(p.id.data(), count * sizeof(std::uint32_t));
   hash.addBytes(p.driver.data(), count * sizeof(std::uint32_t));

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "service/sph/effects/effect_list.h"
+#include "service/sph/effects/platelets.h"
+#include "service/sph/effects/rheology.h"
 #include "service/sph/seeding.h"
 #include "service/sph/world_core.h"
 #include "service/sph/world_setup.h"
@@ -35,6 +37,15 @@ Status checkEffects(const EffectSettings& effects) {
   if (effects.viscosity && !isFiniteNotNegative(effects.viscosity->viscosity)) {
     return invalid("viscosity must be finite and not negative");
   }
+  if (effects.viscosity) {
+    if (Status status = checkRheology(*effects.viscosity); !status.ok()) return status;
+  }
+  if (effects.platelets) {
+    if (Status status = checkPlatelets(*effects.platelets); !status.ok()) return status;
+    if (effects.viscosity && !(effects.viscosity->viscosity > 0.0)) {
+      return invalid("platelets thicken blood: its viscosity must be greater than 0 Pa s");
+    }
+  }
   if (effects.applied_force && effects.applied_force->max_sources > kMostForceSources) {
     return invalid("applied_force.max_sources is " + std::to_string(effects.applied_force->max_sources) + "; use at most " +
                    std::to_string(kMostForceSources));
@@ -42,12 +53,18 @@ Status checkEffects(const EffectSettings& effects) {
   return {};
 }
 
-Status checkBlock(const FluidBlock& block) {
+Status checkBlock(const FluidBlock& block, const EffectSettings& effects) {
   if (!block.lower.allFinite() || !block.upper.allFinite()) return invalid("a fluid block's corners must be finite");
   if (!block.velocity.allFinite()) return invalid("a fluid block's velocity must be finite");
   if (!isFiniteNotNegative(block.jitter)) return invalid("a fluid block's jitter must be finite and not negative");
   if (block.viscosity && !isFiniteNotNegative(*block.viscosity)) {
     return invalid("a fluid block's viscosity must be finite and not negative");
+  }
+  if (block.viscosity && *block.viscosity == 0.0 && viscosityChanges(effects)) {
+    return invalid("a fluid block's viscosity must be greater than 0 where platelets or a rheology act");
+  }
+  if (block.platelet && !(*block.platelet >= 0.0 && *block.platelet <= 1.0)) {
+    return invalid("a fluid block's platelets must be between 0 and 1");
   }
   return {};
 }
@@ -87,7 +104,7 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   }
   std::uint64_t seeded = 0;
   for (const FluidBlock& block : d.fluid_blocks) {
-    if (Status status = checkBlock(block); !status.ok()) return status;
+    if (Status status = checkBlock(block, d.effects); !status.ok()) return status;
     const auto counts = blockLattice(block, d.spacing);
     std::uint64_t particles = 1;  // bounded after every factor: the product of three could overflow
     for (const std::uint64_t count : counts)
@@ -156,6 +173,7 @@ void FrameBuffer::reserve(std::uint32_t capacity, std::uint32_t attributes_wante
   velocity.resize(attributes_wanted & kFrameVelocity ? 3 * n : 0);
   density.resize(attributes_wanted & kFrameDensity ? n : 0);
   viscosity.resize(attributes_wanted & kFrameViscosity ? n : 0);
+  platelet.resize(attributes_wanted & kFramePlatelet ? n : 0);
 }
 
 std::string_view stageName(Stage stage) { return kStageNames[static_cast<std::size_t>(stage)]; }

@@ -55,6 +55,7 @@ enum FrameAttribute : std::uint32_t {
   kFrameVelocity = 1u << 0,
   kFrameDensity = 1u << 1,
   kFrameViscosity = 1u << 2,
+  kFramePlatelet = 1u << 3,
 };
 
 /// A copy of the visible particles; buffers are sized once with reserve() and reused. Order is storage order; ids are stable.
@@ -67,7 +68,8 @@ struct FrameBuffer {
   std::vector<std::uint32_t> id;  ///< count
   std::vector<float> velocity;    ///< 3 x count, m/s
   std::vector<float> density;     ///< count, kg/m^3
-  std::vector<float> viscosity;   ///< count, Pa s
+  std::vector<float> viscosity;   ///< count, Pa s: that which acts now
+  std::vector<float> platelet;    ///< count, P from 0 to 1; 0 without platelets
 
   void reserve(std::uint32_t capacity, std::uint32_t attributes_wanted);
 };

@@ -57,6 +57,10 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     const Vec3& g = description.effects.gravity->acceleration;
     gravity_ = {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(g.z())};
   }
+  const EffectSettings& effects = description.effects;
+  if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, target);
+  if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
+  if (effects.platelets) clotting_.emplace(*effects.platelets, description.spacing, description.rest_density, walls_.field());
   if (description.effects.applied_force) {
     applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_,
                            (description.domain.upper - description.domain.lower).norm());
@@ -67,8 +71,6 @@ template <class Real>
 Status WorldCore<Real>::populate() {
   JitterSource jitter{description_.seed};
   for (const FluidBlock& block : description_.fluid_blocks) {
-    const double viscosity =
-        block.viscosity.value_or(description_.effects.viscosity ? description_.effects.viscosity->viscosity : 0.0);
     seedBlock(block, description_.spacing, jitter, [&](const Vec3& position) {
       const std::uint32_t i = count_++;
       particles_.x[i] = static_cast<Real>(position.x() / h_);
@@ -78,7 +80,7 @@ Status WorldCore<Real>::populate() {
       particles_.vy[i] = static_cast<Real>(block.velocity.y());
       particles_.vz[i] = static_cast<Real>(block.velocity.z());
       particles_.id[i] = next_id_++;
-      if (!particles_.inverse_viscosity.empty()) particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity);
+      makeBlood(i, block.viscosity, block.platelet);
     });
   }
   injected_ = count_;
@@ -141,14 +143,23 @@ void WorldCore<Real>::emit(double dt) {
     particles_.vz[i] = static_cast<Real>(spawn.state.velocity.z());
     particles_.id[i] = next_id_++;
     particles_.driver[i] = spawn.tag;
-    if (!particles_.inverse_viscosity.empty()) {
-      particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / description_.effects.viscosity->viscosity);
-    }
+    makeBlood(i, std::nullopt, std::nullopt);
     std::fill_n(passes_.acceleration() + std::size_t{i} * 4, 4, Real(0));
     return true;
   });
   unseen_ -= static_cast<std::uint32_t>(step.emitted);
   injected_ += step.emitted;
+}
+
+/// The new particle's own share of the fields that only some scenes have.
+template <class Real>
+void WorldCore<Real>::makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet) {
+  const EffectSettings& effects = description_.effects;
+  if (!particles_.inverse_viscosity.empty()) {
+    particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity.value_or(effects.viscosity->viscosity));
+  }
+  if (!particles_.own_viscosity.empty()) particles_.own_viscosity[i] = static_cast<Real>(viscosity.value_or(0.0));
+  if (!particles_.platelet.empty()) particles_.platelet[i] = static_cast<Real>(platelet.value_or(effects.platelets->fresh));
 }
 
 template <class Real>
@@ -193,6 +204,11 @@ void WorldCore<Real>::computeAccelerations() {
   clock_.lap(Stage::tissue);
   counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
   clock_.lap(Stage::density);
+  if (shear_rate_) shear_rate_->update(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
+  if (rheology_) {
+    const double largest = rheology_->update(particles_, passes_, shearRates(), count_, shares_, *executor_);
+    if (largest > 0.0) limits_.viscous = diffusionLimit(description_, largest / description_.rest_density);
+  }
   passes_.force(grid_, particles_, count_, shares_, *executor_);
   clock_.lap(Stage::force);
   walls_.addForces(particles_, passes_, shares_, *executor_);
@@ -221,6 +237,9 @@ void WorldCore<Real>::finishStep(double dt) {
   }
   faulted_ = !total.finite;
   if (faulted_) return;
+  if (clotting_) {
+    clotting_->advance(particles_, passes_, shearRates(), walls_, grid_, static_cast<Real>(dt), count_, shares_, *executor_);
+  }
   counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
   counter(Counter::speed_clamped) += total.speed_clamped;
   counter(Counter::acceleration_clamped) += total.acceleration_clamped;
@@ -326,6 +345,7 @@ MemoryUse WorldCore<Real>::memory() const {
   use.lists = passes_.listBytes();
   use.grid = grid_.bytes();
   use.tissue = walls_.bytes();
+  if (shear_rate_) use.effects += shear_rate_->bytes();
   return use;
 }
 

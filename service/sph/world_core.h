@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "service/sph/effects/applied_force.h"
+#include "service/sph/effects/platelets.h"
+#include "service/sph/effects/rheology.h"
+#include "service/sph/effects/shear_rate.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"
@@ -56,6 +59,8 @@ class WorldCore final : public World {
   void computeAccelerations();
   void finishStep(double dt);
 
+  const Real* shearRates() const { return shear_rate_ ? shear_rate_->data() : nullptr; }
+  void makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet);
   Bounds<Real> boundsOf() const;
   void chooseShares();
   void withdraw(const Throat& throat);
@@ -79,6 +84,9 @@ class WorldCore final : public World {
   WallEffects<Real> walls_;
   WoundSet wounds_;
   std::optional<AppliedForce<Real>> applied_force_;
+  std::optional<ShearRate<Real>> shear_rate_;
+  std::optional<EffectiveViscosity<Real>> rheology_;
+  std::optional<Clotting<Real>> clotting_;
   std::vector<DriftResult<Real>> drift_results_;
   std::vector<KickResult<Real>> kick_results_;
 

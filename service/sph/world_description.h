@@ -94,7 +94,8 @@ struct FluidBlock {
   Vec3 upper = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
   double jitter = 0.0;              ///< uniform, of each coordinate, in spacings
-  std::optional<double> viscosity;  ///< Pa s
+  std::optional<double> viscosity;  ///< Pa s, whatever the shear rate
+  std::optional<double> platelet;   ///< P, 0 to 1; without it PlateletSettings::fresh
 };
 
 struct WorldDescription {

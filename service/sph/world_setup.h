@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "service/sph/effects/pair_set.h"
+#include "service/sph/effects/rheology.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/passes/pair_passes.h"
 #include "service/sph/rest_lattice.h"
@@ -20,8 +21,7 @@ constexpr double kThroatMargin = 16.0;
 inline bool viscosityVaries(const WorldDescription& description) {
   const EffectSettings& effects = description.effects;
   if (!effects.viscosity) return false;
-  if (effects.platelets || effects.core_radius) return true;
-  if (!std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology)) return true;
+  if (viscosityChanges(effects) || effects.core_radius) return true;
   for (const FluidBlock& block : description.fluid_blocks) {
     if (block.viscosity && *block.viscosity != effects.viscosity->viscosity) return true;
   }
@@ -42,12 +42,19 @@ inline PairSet pairSet(const WorldDescription& description) {
   return set;
 }
 
-/// The largest viscosity of any particle, Pa s; 0 without the effect.
+/// The largest viscosity of any particle at the start, Pa s; 0 without the effect. Where viscosity changes, the time step follows
+/// that of the moment.
 inline double largestViscosity(const WorldDescription& description) {
   if (!description.effects.viscosity) return 0.0;
   double largest = description.effects.viscosity->viscosity;
   for (const FluidBlock& block : description.fluid_blocks) largest = std::max(largest, block.viscosity.value_or(0.0));
   return largest;
+}
+
+/// 0.045 h^2/nu, s: 0.06 goes unstable at walls; nu > 0 in m^2/s.
+inline double diffusionLimit(const WorldDescription& description, double nu) {
+  const double h = description.supportRadius();
+  return 0.045 * h * h / nu;
 }
 
 inline TimeStepLimits timeStepLimits(const WorldDescription& description, double speed_of_sound) {
@@ -56,8 +63,10 @@ inline TimeStepLimits timeStepLimits(const WorldDescription& description, double
   limits.speed_of_sound = speed_of_sound;
   limits.scene = description.max_dt;
   const double viscosity = largestViscosity(description);
-  const double h = description.supportRadius();
-  if (viscosity > 0.0) limits.viscous = 0.045 * h * h * description.rest_density / viscosity;
+  if (viscosity > 0.0) limits.viscous = diffusionLimit(description, viscosity / description.rest_density);
+  if (const auto& platelets = description.effects.platelets; platelets && platelets->diffusivity > 0.0) {
+    limits.diffusive = diffusionLimit(description, platelets->diffusivity);
+  }
   return limits;
 }
 
@@ -106,7 +115,14 @@ inline PairLayout pairLayout(const WorldDescription& description) {
 /// The arrays that a description calls for.
 template <class Real>
 typename Particles<Real>::Fields particleFields(const WorldDescription& description) {
-  return {viscosityVaries(description), description.effects.platelets.has_value(), description.effects.core_radius.has_value()};
+  typename Particles<Real>::Fields fields;
+  fields.viscosity = viscosityVaries(description);
+  fields.platelet = description.effects.platelets.has_value();
+  fields.radius = description.effects.core_radius.has_value();
+  for (const FluidBlock& block : description.fluid_blocks) {
+    fields.own_viscosity = fields.own_viscosity || (block.viscosity && viscosityChanges(description.effects));
+  }
+  return fields;
 }
 
 template <class Real>

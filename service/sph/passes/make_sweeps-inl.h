@@ -6,6 +6,7 @@
 #define BLEEDSIM_SPH_PASSES_MAKE_SWEEPS_INL_H_
 #endif
 
+#include "service/sph/effects/shear_rate-inl.h"
 #include "service/sph/passes/list_sweep-inl.h"
 #include "service/sph/passes/sweep_table.h"
 
@@ -15,6 +16,7 @@ namespace bleedsim::sph::HWY_NAMESPACE {
 template <class L, bool kPeriodic, bool kRadius>
 constexpr SweepTable<typename L::Scalar> makeSweeps() {
   SweepTable<typename L::Scalar> table;
+  table.shear_rate = &ListSweep<L, WendlandC2, kPeriodic, kRadius, ShearMoments<L>>::run;
   return table;
 }
 

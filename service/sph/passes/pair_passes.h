@@ -72,7 +72,7 @@ class PairPasses {
       record[kRecordVz] = p.vz[i];
     }
     if (groups_ > 2) {
-      record[kRecordInverseViscosity] = p.inverse_viscosity.empty() ? Real(1) : p.inverse_viscosity[i];
+      setInverseViscosity(i, p.inverse_viscosity.empty() ? Real(1) : p.inverse_viscosity[i]);
       record[kRecordPlatelet] = p.platelet.empty() ? Real(0) : p.platelet[i];
       const Real radius = p.radius.empty() ? Real(1) : p.radius[i];
       const Real inverse2 = Real(1) / (radius * radius);
@@ -163,6 +163,9 @@ class PairPasses {
       function(own);
     });
   }
+
+  /// The one place where a record gets its 1/mu, 1/(Pa s); the set of effects must have the third group.
+  void setInverseViscosity(std::size_t i, Real inverse_viscosity) { record(i)[kRecordInverseViscosity] = inverse_viscosity; }
 
   /// The packed record of particle i (RecordField), for stages that write into it.
   Real* record(std::size_t i) { return record_.data() + i * static_cast<std::size_t>(4 * groups_); }

@@ -140,6 +140,7 @@ void TissueField<Real>::addPlane(const Plane& plane, Real distance, WallTerms<Re
   term.share = share.share;
   addScaled(term.gradient, share.slope, term.normal);
   term.friction = frictionOf(share, distance) * plane.grip;
+  term.grip = plane.grip;
   terms.add(term);
 }
 
@@ -169,6 +170,7 @@ void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Re
   term.gradient = {table.full() * slope[0] * filled[1] * filled[2], table.full() * filled[0] * slope[1] * filled[2],
                    table.full() * filled[0] * filled[1] * slope[2]};
   term.friction = scaledFriction(term.share, nearest.value) * obstacle.grip;
+  term.grip = obstacle.grip;
   terms.add(term);
 }
 
@@ -208,6 +210,7 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, WallTe
     }
   }
   term.friction = scaledFriction(term.share, nearest.value) * bowl.grip;
+  term.grip = bowl.grip;
   terms.add(term);
 }
 
@@ -251,6 +254,7 @@ bool TissueField<Real>::sample(Real x, Real y, Real z, WallSample<Real>& out) co
     if (term.distance >= out.distance) continue;
     out.distance = term.distance;
     out.normal = term.normal;
+    out.grip = term.grip;
   }
   out.friction = std::min(out.friction, Real{0});
   return true;

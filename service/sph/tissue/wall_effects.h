@@ -72,6 +72,15 @@ class WallEffects {
     });
   }
 
+  /// visit(particle, sample) for the particles of a share that touch tissue, by rising index. A share is that of the grid's rows
+  /// in sample(), which must have been called with as many `shares`.
+  template <class Visit>
+  void forEachTouching(int share, Visit&& visit) const {
+    if (field_.empty()) return;
+    const Touching* list = touching_[static_cast<std::size_t>(share)].data();
+    for (std::uint32_t k = 0; k < counts_[static_cast<std::size_t>(share)].touching; ++k) visit(list[k].particle, list[k].wall);
+  }
+
   /// Adds to the accelerations. Velocities are those of the half step.
   void addForces(const Particles<Real>& p, PairPasses<Real>& passes, int shares, Executor& executor) const {
     if (field_.empty()) return;

@@ -195,7 +195,7 @@ TEST(Effects, TheCatalogueNamesEachWithItsSource) {
     EXPECT_FALSE(effect.source.empty());
     EXPECT_FALSE(effect.deviation.empty());
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "applied_force"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "platelets", "applied_force"}));
 }
 
 TEST(Effects, TheirSettingsEnableThem) {

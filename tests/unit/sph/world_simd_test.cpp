@@ -35,6 +35,17 @@ WorldDescription bleeding() {
   return description;
 }
 
+/// Two blocks that meet, with a flow curve and platelets of different age.
+WorldDescription clotting(WorldDescription description) {
+  description = harmonic(description);
+  description.effects.viscosity->rheology = CassonRheology{};
+  description.effects.platelets.emplace();
+  description.effects.platelets->diffusivity = 1e-4;
+  description.effects.platelets->clot_speedup = 1000.0;
+  description.fluid_blocks.back().platelet = 0.6;
+  return description;
+}
+
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{
       {"FreeBlock",
@@ -52,6 +63,14 @@ const std::vector<Case>& cases() {
       {"HarmonicPeriodic",
        [] {
          return harmonic(test::periodicBox({12, 8, 8}, 0.3));
+       }},
+      {"Clotting",
+       [] {
+         return clotting(test::freeBlock({12, 9, 9}, 0.3));
+       }},
+      {"ClottingPeriodic",
+       [] {
+         return clotting(test::periodicBox({12, 8, 8}, 0.3));
        }},
       {"ClosedBox",
        [] {
@@ -74,6 +93,8 @@ struct Differences {
   double position = 0.0;  // m
   double velocity = 0.0;  // m/s
   double density = 0.0;   // kg/m^3
+  double viscosity = 0.0;  // Pa s
+  double platelet = 0.0;
 };
 
 /// Largest difference of each field, as a part of the field's largest magnitude.
@@ -89,11 +110,15 @@ Differences compare(const FrameBuffer& a, const FrameBuffer& b) {
     apart.position = std::max(apart.position, (test::positionOf(a, i) - test::positionOf(b, j)).norm());
     apart.velocity = std::max(apart.velocity, (test::velocityOf(a, i) - test::velocityOf(b, j)).norm());
     apart.density = std::max(apart.density, std::abs(double{a.density[i]} - double{b.density[j]}));
+    apart.viscosity = std::max(apart.viscosity, std::abs(double{a.viscosity[i]} - double{b.viscosity[j]}));
+    apart.platelet = std::max(apart.platelet, std::abs(double{a.platelet[i]} - double{b.platelet[j]}));
     largest.position = std::max(largest.position, test::positionOf(a, i).norm());
     largest.velocity = std::max(largest.velocity, test::velocityOf(a, i).norm());
     largest.density = std::max(largest.density, double{a.density[i]});
+    largest.viscosity = std::max(largest.viscosity, double{a.viscosity[i]});
   }
-  return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density};
+  return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density,
+          apart.viscosity / largest.viscosity, apart.platelet};
 }
 
 class SimdWorld : public testing::TestWithParam<Case> {};
@@ -116,6 +141,8 @@ TEST_P(SimdWorld, OneStepIsThatOfTheScalarTwin) {
     EXPECT_LT(apart.position, 1e-5) << simdTargetName(target);
     EXPECT_LT(apart.velocity, 1e-5) << simdTargetName(target);
     EXPECT_LT(apart.density, 1e-5) << simdTargetName(target);
+    EXPECT_LT(apart.viscosity, 1e-5) << simdTargetName(target);
+    EXPECT_LT(apart.platelet, 1e-6) << simdTargetName(target);
   }
 }
 
