@@ -101,9 +101,9 @@ struct FluidBlock {
 struct WorldDescription {
   std::uint64_t seed = 1;
   Domain domain;
-  std::uint32_t capacity = 0;    ///< most particles at any time
-  double spacing = 0.001;        ///< dx, m
-  double support_ratio = 2.0;    ///< h/dx
+  std::uint32_t capacity = 0;  ///< most particles at any time
+  double spacing = 0.001;      ///< dx, m
+  double support_ratio = 2.0;  ///< h/dx
   KernelType kernel = KernelType::wendland_c2;
   double rest_density = 1060.0;  ///< kg/m^3
   Compressibility compressibility;

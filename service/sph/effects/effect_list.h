@@ -22,7 +22,8 @@ inline constexpr std::array<EffectRow, 5> kEffects{{
       "Carreau-Yasuda or Casson"},
      [](const EffectSettings& s) { return s.viscosity.has_value(); }},
     {{"platelets", "(26)(27)", "Brookshaw 1985; bleedsim",
-      "reciprocal diffusion instead of (33); sinks by activation, tissue and air, without which nothing clots; a of (26) from the "
+      "reciprocal diffusion instead of (33); sinks by activation, tissue and air, without which nothing clots; a of (26) from "
+      "the "
       "fresh viscosity"},
      [](const EffectSettings& s) { return s.platelets.has_value(); }},
     {{"applied_force", "-", "bleedsim", "not in the paper: force of instruments and commands on the fluid"},

@@ -61,9 +61,11 @@ double EffectiveViscosity<Real>::update(Particles<Real>& p, PairPasses<Real>& pa
     const ShareRange range{count, share, shares};
     Real& largest = largest_[static_cast<std::size_t>(share)];
     if (const auto* carreau = std::get_if<CarreauYasudaRheology>(&settings_.rheology)) {
-      largest = updateRange(p, passes, range.begin, range.end, [&](std::uint32_t i) { return viscosityAt(*carreau, shear_rate[i]); });
+      largest =
+          updateRange(p, passes, range.begin, range.end, [&](std::uint32_t i) { return viscosityAt(*carreau, shear_rate[i]); });
     } else if (const auto* casson = std::get_if<CassonRheology>(&settings_.rheology)) {
-      largest = updateRange(p, passes, range.begin, range.end, [&](std::uint32_t i) { return viscosityAt(*casson, shear_rate[i]); });
+      largest =
+          updateRange(p, passes, range.begin, range.end, [&](std::uint32_t i) { return viscosityAt(*casson, shear_rate[i]); });
     } else {
       const Real viscosity = static_cast<Real>(settings_.viscosity);
       largest = updateRange(p, passes, range.begin, range.end, [viscosity](std::uint32_t) { return viscosity; });

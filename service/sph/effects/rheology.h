@@ -6,9 +6,9 @@
 //   Newtonian        mu_fresh = the effect's viscosity
 // Equation (26) of the paper, with its a chosen by the fresh blood at hand (physics.md section 3):
 //   mu = b exp(-a P)   a = ln(b/mu_fresh)/0.99, so that mu = mu_fresh at P = 0.99 and b at P = 0
-// terms: g shear rate 1/s (shear_rate.h); mu Pa s; tau_y Pa; lambda s; P 0 to 1. A block that brings a viscosity of its own has it
-// as mu_fresh at any shear rate.
-// Deviation from the paper: it knows no shear thinning, and its a and b are constants without a value.
+// terms: g shear rate 1/s (shear_rate.h); mu Pa s; tau_y Pa; lambda s; P 0 to 1. A block that brings a viscosity of its own has
+// it as mu_fresh at any shear rate. Deviation from the paper: it knows no shear thinning, and its a and b are constants without a
+// value.
 #pragma once
 
 #include <cmath>
@@ -40,9 +40,10 @@ Real viscosityAt(const CarreauYasudaRheology& law, Real g) {
 template <class Real>
 Real viscosityAt(const CassonRheology& law, Real g) {
   const Real x = g / static_cast<Real>(law.regularisation_shear_rate);
-  // (1 - exp(-x))/x; by its series where the difference would cancel, to x^4/120 = 1e-10.
-  const Real kept = x < Real(0.01) ? Real(1) - x * (Real(0.5) - x * (Real(1) / Real(6) - x * (Real(1) / Real(24))))
-                                   : (Real(1) - ownExp(-x)) / x;
+  // (1 - exp(-x))/x; by its series where the difference would cancel, to x^5/720 = 1e-13.
+  const Real kept = x < Real(0.01)
+                        ? Real(1) - x * (Real(0.5) - x * (Real(1) / Real(6) - x * (Real(1) / Real(24) - x / Real(120))))
+                        : (Real(1) - ownExp(-x)) / x;
   const Real root = static_cast<Real>(std::sqrt(law.viscosity)) +
                     std::sqrt(static_cast<Real>(law.yield_stress / law.regularisation_shear_rate) * kept);
   return root * root;
@@ -68,8 +69,8 @@ class EffectiveViscosity {
   /// Of a scene in which viscosityChanges().
   EffectiveViscosity(const EffectSettings& effects, int shares);
 
-  /// After density and before forces: gives every particle and its record the 1/mu that acts in this step, and returns the largest
-  /// mu, Pa s. `shear_rate` in 1/s may be null where no rheology asks for it.
+  /// After density and before forces: gives every particle and its record the 1/mu that acts in this step, and returns the
+  /// largest mu, Pa s. `shear_rate` in 1/s may be null where no rheology asks for it.
   double update(Particles<Real>& p, PairPasses<Real>& passes, const Real* shear_rate, std::uint32_t count, int shares,
                 Executor& executor);
 

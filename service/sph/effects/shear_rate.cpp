@@ -22,7 +22,8 @@ const SweepTable<Real>& sweepTable(const WorldDescription& description, [[maybe_
 
 bool shearRateNeeded(const EffectSettings& effects) {
   const bool thins = effects.viscosity && !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology);
-  const bool gated = effects.platelets && effects.platelets->activation_rate > 0.0 && std::isfinite(effects.platelets->shear_gate);
+  const bool gated =
+      effects.platelets && effects.platelets->activation_rate > 0.0 && std::isfinite(effects.platelets->shear_gate);
   return thins || gated;
 }
 
@@ -54,8 +55,8 @@ void ShearRate<Real>::update(const CellGrid<Real>& grid, const Particles<Real>& 
 
 template <class Real>
 void ShearRate<Real>::addWall(std::uint32_t i, const Particles<Real>& p, const WallSample<Real>& wall) {
-  const Real slope = std::sqrt(wall.gradient[0] * wall.gradient[0] + wall.gradient[1] * wall.gradient[1] +
-                               wall.gradient[2] * wall.gradient[2]);
+  const Real slope =
+      std::sqrt(wall.gradient[0] * wall.gradient[0] + wall.gradient[1] * wall.gradient[1] + wall.gradient[2] * wall.gradient[2]);
   std::array<Real, 3> out = wall.normal;
   if (slope > Real(0)) {
     for (std::size_t a = 0; a < 3; ++a) out[a] = -wall.gradient[a] / slope;

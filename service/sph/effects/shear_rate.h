@@ -6,13 +6,13 @@
 // terms: g 1/s; v m/s; V m^3; B dimensionless, the unit matrix in the bulk. A linear velocity has its exact gradient wherever B
 // can be inverted, also at a free surface.
 //
-// Tissue: its layers move as friction has it (walls.md), v(depth) = -v_i depth/d~, d~ = max(d, dx/4). With the wall's share L, S =
-// |grad L| and e the unit vector against grad L they add, exactly for a plane and layers that are infinitely thin,
+// Tissue: its layers move as friction has it (walls.md), v(depth) = -v_i depth/d~, d~ = max(d, dx/4). With the wall's share L, S
+// = |grad L| and e the unit vector against grad L they add, exactly for a plane and layers that are infinitely thin,
 //   B += L I + d~ S e e^T            A += (1 - slip) (S + L/d~) v_i e^T
 // which keeps the gradient of a shear flow over the wall exact whatever L and S are. In edges e points out of the edge.
 //
-// Few neighbours: where the mean t of B's eigenvalues is below 0.01, or det B < 0.05 t^3 (pairs, filaments, films in the air), B +
-// (t/10 + 0.001) I is inverted instead: directions without neighbours get no gradient, and an isolated particle g = 0.
+// Few neighbours: where the mean t of B's eigenvalues is below 0.01, or det B < 0.05 t^3 (pairs, filaments, films in the air), B
+// + (t/10 + 0.001) I is inverted instead: directions without neighbours get no gradient, and an isolated particle g = 0.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,7 @@ class ShearRate {
   void addWall(std::uint32_t i, const Particles<Real>& p, const WallSample<Real>& wall);
 
   SweepFunction<ShearRateJob<Real>> sweep_;
-  Real h_;              // m
+  Real h_;               // m
   Real least_distance_;  // dx/4, in h
   Real scale_;
   AlignedArray<Real> moments_;

@@ -9,15 +9,15 @@ namespace bleedsim::sph {
 
 /// The constants of a scene that bound the step.
 struct TimeStepLimits {
-  double spacing = 0.0;                                      ///< dx, m
-  double speed_of_sound = 0.0;                               ///< c0, m/s
-  double viscous = std::numeric_limits<double>::infinity();  ///< 0.045 h^2 rho0/mu, s; 0.06 goes unstable at walls
+  double spacing = 0.0;                                        ///< dx, m
+  double speed_of_sound = 0.0;                                 ///< c0, m/s
+  double viscous = std::numeric_limits<double>::infinity();    ///< 0.045 h^2 rho0/mu, s; 0.06 goes unstable at walls
   double diffusive = std::numeric_limits<double>::infinity();  ///< 0.045 h^2/k of the platelets, s
-  double scene = std::numeric_limits<double>::infinity();    ///< max_dt, s
+  double scene = std::numeric_limits<double>::infinity();      ///< max_dt, s
 };
 
-/// min(0.4 dx/(c0 + v), 0.25 sqrt(dx/a), viscous, diffusive, scene, 1.1 x the step before), s; v in m/s and a in m/s^2 are the largest of
-/// all particles. Fractions of a step are never taken to meet a frame, so results do not depend on the frame rate.
+/// min(0.4 dx/(c0 + v), 0.25 sqrt(dx/a), viscous, diffusive, scene, 1.1 x the step before), s; v in m/s and a in m/s^2 are the
+/// largest of all particles. Fractions of a step are never taken to meet a frame, so results do not depend on the frame rate.
 inline double stableTimeStep(const TimeStepLimits& limits, double max_speed, double max_acceleration, double before) {
   double dt = 0.4 * limits.spacing / (limits.speed_of_sound + max_speed);
   if (max_acceleration > 0.0) dt = std::min(dt, 0.25 * std::sqrt(limits.spacing / max_acceleration));

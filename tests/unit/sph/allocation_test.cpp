@@ -16,6 +16,8 @@ TEST_P(Allocation, StepFrameStatsAndHashAllocateNothing) {
   pool.upper = {0.01, 0.01, 0.012};
   description.fluid_blocks.push_back(pool);
   description.effects.applied_force.emplace();
+  description.effects.viscosity->rheology = CassonRheology{};
+  description.effects.platelets.emplace();
   const auto world = test::makeWorld(description, {.threads = GetParam()});
   SetForce force;
   force.key = 1;
@@ -25,7 +27,7 @@ TEST_P(Allocation, StepFrameStatsAndHashAllocateNothing) {
   ASSERT_TRUE(world->apply(force).ok());
   ASSERT_GT(world->particleCount(), 2000u) << "too few particles for a second thread";
 
-  constexpr std::uint32_t kAll = kFrameVelocity | kFrameDensity | kFrameViscosity;
+  constexpr std::uint32_t kAll = kFrameVelocity | kFrameDensity | kFrameViscosity | kFramePlatelet;
   FrameBuffer frame;
   frame.reserve(description.capacity, kAll);
   WorldStats stats;

@@ -1,5 +1,5 @@
-// Platelets: what each sink does to a particle, and that blood brings its own. The closed forms of diffusion and activation are in
-// tests/validation/sph/clotting_test.cpp.
+// Platelets: what each sink does to a particle, and that blood brings its own. The closed forms of diffusion and activation are
+// in tests/validation/sph/clotting_test.cpp.
 #include "service/sph/effects/platelets.h"
 
 #include <cmath>
@@ -38,8 +38,8 @@ TEST(Platelets, StayWithoutSinks) {
   for (std::size_t i = 0; i < frame.count; ++i) EXPECT_EQ(frame.platelet[i], 0.99f);
 }
 
-// dP/dt = -s k_a A_a P: P = 0.99 exp(-s k_a t) where air is all around, P = 0.99 in the middle. First order in dt: half of s k_a dt
-// = 0.4 % of the exponent.
+// dP/dt = -s k_a A_a P: P = 0.99 exp(-s k_a t) where air is all around, P = 0.99 in the middle. First order in dt: half of s k_a
+// dt = 0.4 % of the exponent.
 TEST(Platelets, AirTakesThoseOfIsolatedParticlesAndLeavesTheMiddle) {
   WorldDescription description = test::freeBlock({7, 7, 7});
   description.effects.platelets = still();
@@ -63,10 +63,11 @@ TEST(Platelets, AirTakesThoseOfIsolatedParticlesAndLeavesTheMiddle) {
   EXPECT_EQ(middle, 27);
 }
 
-// A_w is 1 half a spacing from tissue and 0 at h = 2 dx, where the third row (2.5 dx) is beyond.
+// A_w is 1 half a spacing from tissue and 0 at h = 2.5 dx, where the third row stands.
 TEST(Platelets, TissueTakesThoseOfTheFirstRows) {
   WorldDescription description = test::closedBox({8, 8, 8});
   description.effects.platelets = still();
+  description.support_ratio = 2.5;
   description.effects.platelets->wall_rate = 100.0;
   const FrameBuffer frame = after(description, 0.01);
   for (std::size_t i = 0; i < frame.count; ++i) {

@@ -22,7 +22,8 @@ TYPED_TEST(FlowCurve, CarreauYasuda) {
     CarreauYasudaRheology law;
     law.transition = transition;
     for (const double g : {0.0, 1e-3, 0.1, 0.3, 1.0, 10.0, 400.0, 1e5}) {
-      const double exact = 0.00345 + (0.056 - 0.00345) * std::pow(1.0 + std::pow(3.313 * g, transition), (0.3568 - 1.0) / transition);
+      const double exact =
+          0.00345 + (0.056 - 0.00345) * std::pow(1.0 + std::pow(3.313 * g, transition), (0.3568 - 1.0) / transition);
       EXPECT_NEAR(double{viscosityAt(law, static_cast<TypeParam>(g))} / exact, 1.0, TestFixture::kTolerance) << g;
     }
   }
@@ -51,7 +52,9 @@ TYPED_TEST(FlowCurve, Platelets) {
   EXPECT_NEAR(thickened(TypeParam(0.0041), TypeParam(10), TypeParam(0.99)), 0.0041, 1e-8) << "fresh blood is as it flows";
 }
 
-double viscosityOfFirst(const WorldDescription& description) { return double{test::frameOf(*test::makeWorld(description)).viscosity.at(0)}; }
+double viscosityOfFirst(const WorldDescription& description) {
+  return double{test::frameOf(*test::makeWorld(description)).viscosity.at(0)};
+}
 
 // A block at rest: mu(g = 0) of its law, b exp(-a P) of that, or of the block's own.
 TEST(EffectiveViscosityOf, BloodAtRest) {

@@ -40,24 +40,21 @@ TEST_P(LinearFlow, HasItsExactShearRateOnEveryTargetAndSide) {
     }
     for (const SimdTarget target : availableSimdTargets()) {
       const auto world = test::makeWorld(description, {.simd = target});
-      forEachShearRate(*world, [&](const Vec3&, double g) {
-        EXPECT_NEAR(g, flow.shear_rate, kTolerance) << simdTargetName(target);
-      });
+      forEachShearRate(*world,
+                       [&](const Vec3&, double g) { EXPECT_NEAR(g, flow.shear_rate, kTolerance) << simdTargetName(target); });
     }
     const auto reference = test::makeWorld(description, {.precision = Precision::float64});
-    forEachShearRate(*reference, [&](const Vec3&, double g) {
-      EXPECT_NEAR(g, flow.shear_rate, kTolerance);
-    });
+    forEachShearRate(*reference, [&](const Vec3&, double g) { EXPECT_NEAR(g, flow.shear_rate, kTolerance); });
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Flows, LinearFlow,
-    testing::Values(Flow{"Shear", {{0, 0, 50}, {0, 0, 0}, {0, 0, 0}}, 50.0},
-                    Flow{"ShearAcross", {{0, 30, 0}, {0, 0, 40}, {0, 0, 0}}, 50.0},
-                    Flow{"Stretch", {{20, 0, 0}, {0, -20, 0}, {0, 0, 0}}, 40.0},
-                    Flow{"Rotation", {{0, -50, 0}, {50, 0, 0}, {0, 0, 0}}, 0.0}, Flow{"Rest", {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, 0.0}),
-    [](const auto& flow) { return flow.param.name; });
+INSTANTIATE_TEST_SUITE_P(Flows, LinearFlow,
+                         testing::Values(Flow{"Shear", {{0, 0, 50}, {0, 0, 0}, {0, 0, 0}}, 50.0},
+                                         Flow{"ShearAcross", {{0, 30, 0}, {0, 0, 40}, {0, 0, 0}}, 50.0},
+                                         Flow{"Stretch", {{20, 0, 0}, {0, -20, 0}, {0, 0, 0}}, 40.0},
+                                         Flow{"Rotation", {{0, -50, 0}, {50, 0, 0}, {0, 0, 0}}, 0.0},
+                                         Flow{"Rest", {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, 0.0}),
+                         [](const auto& flow) { return flow.param.name; });
 
 WorldDescription onFloor(double slip) {
   WorldDescription description = test::freeBlock({7, 7, 7});
@@ -95,8 +92,8 @@ TEST(ShearRateAtTissue, NeedsAGrip) {
   forEachShearRate(*slipping, [](const Vec3&, double g) { EXPECT_LT(g, kTolerance); });
 }
 
-// Plane Poiseuille u = 4 U z (H - z)/H^2 over 12 rows: |du/dz| at the rows' middles, relative to the wall's 4 U/H. With the walls'
-// layers the first row has WALL %; without, one-sided, ONE %.
+// Plane Poiseuille u = 4 U z (H - z)/H^2 over 12 rows: |du/dz| at the rows' middles, relative to the wall's 4 U/H. With the
+// walls' layers the first row has WALL %; without, one-sided, ONE %.
 TEST(ShearRateAtTissue, OfAPoiseuilleProfileIsNearlyExact) {
   constexpr double kHeight = 12 * test::kSpacing;
   constexpr double kSpeed = 0.1;
@@ -105,8 +102,9 @@ TEST(ShearRateAtTissue, OfAPoiseuilleProfileIsNearlyExact) {
   block.lower.z() = 0.0;
   block.upper.z() = kHeight;
   const auto worst = [&](const WorldDescription& d) {
-    const auto world = test::makeWorld(
-        withFlow(d, [](const Vec3& x) { return Vec3{4.0 * kSpeed * x.z() * (kHeight - x.z()) / (kHeight * kHeight), 0, 0}; }));
+    const auto world = test::makeWorld(withFlow(d, [](const Vec3& x) {
+      return Vec3{4.0 * kSpeed * x.z() * (kHeight - x.z()) / (kHeight * kHeight), 0, 0};
+    }));
     double largest = 0.0;
     forEachShearRate(*world, [&](const Vec3& x, double g) {
       if (std::max(std::abs(x.x()), std::abs(x.y())) > 0.0021) return;  // the block's sides
@@ -156,15 +154,17 @@ TEST(ShearRateOfFew, IsFiniteAndBounded) {
       EXPECT_LE(g, 0.1 / (apart * dx));
     }
   }
-  for (const double g : of(loose({Vec3::Zero(), Vec3::Zero()}, {Vec3::Zero(), {0, 0.1, 0}}))) EXPECT_LT(g, kTolerance) << "coincident";
+  for (const double g : of(loose({Vec3::Zero(), Vec3::Zero()}, {Vec3::Zero(), {0, 0.1, 0}})))
+    EXPECT_LT(g, kTolerance) << "coincident";
 
   WorldDescription film = test::freeBlock({7, 7, 1});
-  forEachShearRate(*test::makeWorld(withFlow(film, [](const Vec3& x) { return Vec3{50.0 * x.y(), 0, 0}; })),
+  forEachShearRate(*test::makeWorld(withFlow(film,
+                                             [](const Vec3& x) {
+                                               return Vec3{50.0 * x.y(), 0, 0};
+                                             })),
                    [](const Vec3& x, double g) {
                      EXPECT_LE(g, 50.0);  // the lifted B holds back a tenth of t
-                     if (std::max(std::abs(x.x()), std::abs(x.y())) < 0.0015) {
-                       EXPECT_GT(g, 40.0);
-                     }
+                     if (std::max(std::abs(x.x()), std::abs(x.y())) < 0.0015) { EXPECT_GT(g, 40.0); }
                    });
 }
 

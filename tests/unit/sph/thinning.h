@@ -1,4 +1,5 @@
-// Shear rates read back through the viscosity of a frame: a Carreau law that falls strictly has one shear rate for each viscosity.
+// Shear rates read back through the viscosity of a frame: a Carreau law that falls strictly has one shear rate for each
+// viscosity.
 #pragma once
 
 #include <algorithm>

@@ -90,9 +90,9 @@ std::vector<std::size_t> orderById(const FrameBuffer& frame) {
 }
 
 struct Differences {
-  double position = 0.0;  // m
-  double velocity = 0.0;  // m/s
-  double density = 0.0;   // kg/m^3
+  double position = 0.0;   // m
+  double velocity = 0.0;   // m/s
+  double density = 0.0;    // kg/m^3
   double viscosity = 0.0;  // Pa s
   double platelet = 0.0;
 };
