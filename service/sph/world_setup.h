@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/effects/rheology.h"
@@ -42,12 +43,20 @@ inline PairSet pairSet(const WorldDescription& description) {
   return set;
 }
 
-/// The largest viscosity of any particle at the start, Pa s; 0 without the effect. Where viscosity changes, the time step follows
-/// that of the moment.
+/// The largest viscosity that any particle can have at the start, Pa s; 0 without the effect. Where viscosity changes, the time step
+/// then follows that of the moment.
 inline double largestViscosity(const WorldDescription& description) {
-  if (!description.effects.viscosity) return 0.0;
-  double largest = description.effects.viscosity->viscosity;
-  for (const FluidBlock& block : description.fluid_blocks) largest = std::max(largest, block.viscosity.value_or(0.0));
+  const EffectSettings& effects = description.effects;
+  if (!effects.viscosity) return 0.0;
+  const auto clotted = [&](double fresh, std::optional<double> platelet) {
+    if (!effects.platelets) return fresh;
+    return thickened(fresh, effects.platelets->clot_viscosity, platelet.value_or(effects.platelets->fresh));
+  };
+  const double rest = viscosityAtRest<double>(*effects.viscosity);
+  double largest = clotted(rest, std::nullopt);
+  for (const FluidBlock& block : description.fluid_blocks) {
+    largest = std::max(largest, clotted(block.viscosity.value_or(rest), block.platelet));
+  }
   return largest;
 }
 

@@ -55,6 +55,14 @@ Real thickened(Real mu_fresh, Real clot, Real platelet) {
   return clot * ownPow(mu_fresh / clot, platelet / static_cast<Real>(kFreshPlatelet));
 }
 
+/// The largest mu_fresh: all laws thin with shear.
+template <class Real>
+Real viscosityAtRest(const ViscositySettings& settings) {
+  if (const auto* carreau = std::get_if<CarreauYasudaRheology>(&settings.rheology)) return viscosityAt(*carreau, Real(0));
+  if (const auto* casson = std::get_if<CassonRheology>(&settings.rheology)) return viscosityAt(*casson, Real(0));
+  return static_cast<Real>(settings.viscosity);
+}
+
 /// Whether particles' viscosity changes while the scene runs.
 inline bool viscosityChanges(const EffectSettings& effects) {
   return effects.viscosity && (effects.platelets || !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology));

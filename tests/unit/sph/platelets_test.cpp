@@ -98,7 +98,7 @@ TEST(Platelets, ShearKeepsBloodLiquid) {
     EXPECT_TRUE(world->step(1.0).ok());
     const FrameBuffer frame = test::frameOf(*world);
     double sum = 0.0;
-    for (std::size_t i = 0; i < frame.count; ++i) sum += 0.5 - double{frame.platelet[i]};
+    for (std::size_t i = 0; i < frame.count; ++i) sum += 0.5 - double(frame.platelet[i]);
     return sum / frame.count;
   };
   EXPECT_EQ(lost(100.0), 0.0);

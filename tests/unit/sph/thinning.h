@@ -46,7 +46,7 @@ inline WorldDescription withFlow(WorldDescription description, const std::functi
 /// Of every particle of a world that has not moved yet: visit(position in m, shear rate in 1/s).
 inline void forEachShearRate(const World& world, const std::function<void(const Vec3&, double)>& visit) {
   const FrameBuffer frame = test::frameOf(world);
-  for (std::size_t i = 0; i < frame.count; ++i) visit(test::positionOf(frame, i), shearRateAt(double{frame.viscosity[i]}));
+  for (std::size_t i = 0; i < frame.count; ++i) visit(test::positionOf(frame, i), shearRateAt(double(frame.viscosity[i])));
 }
 
 }  // namespace bleedsim::sph

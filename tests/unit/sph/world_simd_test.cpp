@@ -110,12 +110,12 @@ Differences compare(const FrameBuffer& a, const FrameBuffer& b) {
     apart.position = std::max(apart.position, (test::positionOf(a, i) - test::positionOf(b, j)).norm());
     apart.velocity = std::max(apart.velocity, (test::velocityOf(a, i) - test::velocityOf(b, j)).norm());
     apart.density = std::max(apart.density, std::abs(double{a.density[i]} - double{b.density[j]}));
-    apart.viscosity = std::max(apart.viscosity, std::abs(double{a.viscosity[i]} - double{b.viscosity[j]}));
-    apart.platelet = std::max(apart.platelet, std::abs(double{a.platelet[i]} - double{b.platelet[j]}));
+    apart.viscosity = std::max(apart.viscosity, std::abs(double(a.viscosity[i]) - double(b.viscosity[j])));
+    apart.platelet = std::max(apart.platelet, std::abs(double(a.platelet[i]) - double(b.platelet[j])));
     largest.position = std::max(largest.position, test::positionOf(a, i).norm());
     largest.velocity = std::max(largest.velocity, test::velocityOf(a, i).norm());
     largest.density = std::max(largest.density, double{a.density[i]});
-    largest.viscosity = std::max(largest.viscosity, double{a.viscosity[i]});
+    largest.viscosity = std::max(largest.viscosity, double(a.viscosity[i]));
   }
   return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density,
           apart.viscosity / largest.viscosity, apart.platelet};

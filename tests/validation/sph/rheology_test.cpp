@@ -27,6 +27,7 @@ std::unique_ptr<sph::World> plates(const PlaneFlow& flow, double start) {
   sph::WorldDescription scene = channel(kRows, 2.0 * kHalf, 2.5, true, {flow.gradient / kRestDensity, 0, 0});
   scene.compressibility.design_speed = flow.largest;
   scene.effects.viscosity->rheology = flow.rheology;
+  scene.effects.viscosity->solve = sph::ViscositySolve::explicit_;
   scene.fluid_blocks = blocksWithFlow(scene.fluid_blocks.front(), scene.spacing, 1, [&](const sph::Vec3& x) {
     return sph::Vec3{start * flow.at(x.z() - kHalf), 0, 0};
   });
