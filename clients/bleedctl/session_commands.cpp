@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <fmt/core.h>
 #include <memory>
+#include <optional>
+#include <string>
 #include <unistd.h>
 
 #include "clients/bleedctl/context.h"
@@ -14,6 +16,13 @@ namespace {
 constexpr std::chrono::milliseconds kListWindow{1000};
 constexpr std::chrono::milliseconds kWatchInterval{200};
 constexpr std::chrono::seconds kSceneTimeout{2};
+// A session that runs sends statistics much more often; after this the reader wants to know that it is still there.
+constexpr std::chrono::seconds kQuietInterval{2};
+
+constexpr const char* kWatchText =
+    "Prints a line whenever there are new statistics, at most five a second. Without them, as in a pause, it prints\n"
+    "state, simulated time, step and particles: at once, when the state changes, and every 2 s. With --json such a line\n"
+    "has no 'seq'. --count counts the lines of both kinds.\n\n";
 
 std::string paceText(const client::SessionStatus& status) {
   switch (status.pace) {
@@ -103,40 +112,91 @@ int runStatus(const Context& context) {
   return kDone;
 }
 
-void printWatch(const Context& context, const client::SessionStatus& status, const client::FrameStats& stats,
-                const client::FrameCounters& frames) {
-  if (context.json) {
-    JsonObject json;
-    json.add("state", client::toString(status.state)).add("seq", stats.seq).add("step", stats.step);
-    json.add("sim_time_s", stats.sim_time_s).add("real_time_factor", stats.real_time_factor).add("behind_s", stats.behind_s);
-    json.add("particles", stats.particles).add("ml_emitted", stats.emitted_ml).add("frames", frames.received);
-    fmt::print("{}\n", json.add("gaps", frames.gaps).text());
-  } else {
-    const bool terminal = isatty(STDOUT_FILENO) == 1;
-    fmt::print("{}{:<7} {:>9.3f} s  {:>5.2f} x real time  {:>8} particles  {:>9.3f} mL  {} frames, {} gaps{}",
-               terminal ? "\r" : "", client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.particles,
-               stats.emitted_ml, frames.received, frames.gaps, terminal ? "\x1b[K" : "\n");
+/// Prints what `watch` sees: figures for new statistics, otherwise the state, at once where none are to be expected.
+class WatchPrinter {
+ public:
+  explicit WatchPrinter(const Context& context) : context_{context} {}
+
+  /// Looks at the session; true when a line was printed.
+  bool look(client::Session& session) {
+    session.tryTakeFrame();
+    const std::optional<client::SessionStatus> status = session.status();
+    if (!status) return false;
+    const std::optional<client::FrameStats> stats = session.stats();
+    const auto now = std::chrono::steady_clock::now();
+    if (stats && stats->seq != shown_seq_) {
+      printFigures(*status, *stats, session.frameCounters());
+      shown_seq_ = stats->seq;
+    } else if ((status->state != shown_state_ && status->state != client::SessionState::running) ||
+               now - printed_at_ >= kQuietInterval) {
+      printState(*status);
+    } else {
+      return false;
+    }
+    shown_state_ = status->state;
+    printed_at_ = now;
+    std::fflush(stdout);
+    return true;
   }
-  std::fflush(stdout);
-}
+
+  /// Leaves the cursor below the last line.
+  void finish() const {
+    if (overwrites()) fmt::print("\n");
+  }
+
+ private:
+  bool overwrites() const { return terminal_ && !context_.json; }
+
+  void printFigures(const client::SessionStatus& status, const client::FrameStats& stats,
+                    const client::FrameCounters& frames) const {
+    if (context_.json) {
+      JsonObject json;
+      json.add("state", client::toString(status.state)).add("seq", stats.seq).add("step", stats.step);
+      json.add("sim_time_s", stats.sim_time_s).add("real_time_factor", stats.real_time_factor).add("behind_s", stats.behind_s);
+      json.add("particles", stats.particles).add("ml_emitted", stats.emitted_ml).add("frames", frames.received);
+      fmt::print("{}\n", json.add("gaps", frames.gaps).text());
+      return;
+    }
+    printLine(fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time  {:>8} particles  {:>9.3f} mL  {} frames, {} gaps",
+                          client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.particles,
+                          stats.emitted_ml, frames.received, frames.gaps));
+  }
+
+  void printState(const client::SessionStatus& status) const {
+    if (context_.json) {
+      JsonObject json;
+      json.add("state", client::toString(status.state)).add("step", status.step).add("sim_time_s", status.sim_time_s);
+      fmt::print("{}\n", json.add("particles", status.particles).add("text", status.text).text());
+      return;
+    }
+    printLine(fmt::format("{:<7} {:>9.3f} s  step {}  {:>8} particles  no new frames{}{}", client::toString(status.state),
+                          status.sim_time_s, status.step, status.particles, status.text.empty() ? "" : ": ", status.text));
+  }
+
+  void printLine(const std::string& line) const {
+    fmt::print("{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\x1b[K" : "\n");
+  }
+
+  const Context& context_;
+  const bool terminal_ = isatty(STDOUT_FILENO) == 1;
+  std::uint64_t shown_seq_ = 0;  // sessions count from 1
+  client::SessionState shown_state_ = client::SessionState::running;
+  std::chrono::steady_clock::time_point printed_at_ = std::chrono::steady_clock::now();
+};
 
 int runWatch(const Context& context, std::uint64_t count) {
   int code = kDone;
   std::optional<Connection> connection = connect(context, {}, code);
   if (!connection) return code;
   client::Session& session = connection->session;
+  WatchPrinter printer{context};
   std::uint64_t printed = 0;
   bool stopped = false;
   while (!stopped && session.alive() && (count == 0 || printed < count)) {
-    stopped = waitForStopSignal(kWatchInterval);
-    session.tryTakeFrame();
-    const auto status = session.status();
-    const auto stats = session.stats();
-    if (!status || !stats) continue;
-    printWatch(context, *status, *stats, session.frameCounters());
-    ++printed;
+    if (printer.look(session)) ++printed;
+    if (count == 0 || printed < count) stopped = waitForStopSignal(kWatchInterval);
   }
-  if (isatty(STDOUT_FILENO) == 1 && !context.json) fmt::print("\n");
+  printer.finish();
   if (stopped || (count > 0 && printed >= count)) return kDone;
   return fail(kNoSession, fmt::format("session '{}' is gone", session.name()));
 }
@@ -151,6 +211,7 @@ void addSessionCommands(CLI::App& app, Context& context) {
     context.action = [&context] { return runStatus(context); };
   });
   CLI::App* watch = app.add_subcommand("watch", "Show time, real-time factor, particles, mL and gaps until Ctrl-C");
+  watch->footer(kWatchText + watch->get_footer());  // what all commands say follows
   const auto count = std::make_shared<std::uint64_t>(0);
   watch->add_option("--count", *count, "End after so many lines; 0: never")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40U))

@@ -5,23 +5,9 @@
 
 #include "service/daemon/inspect.h"
 #include "service/daemon/service.h"
-#include "service/transport/interfaces.h"
 
 namespace bleedsim::daemon {
 namespace {
-
-// Positions and ids; a subscriber's kernel buffer should hold two frames.
-constexpr std::size_t kFrameBytesPerParticle = 16;
-
-void warnOfSmallBuffer(std::uint32_t capacity) {
-  const std::size_t limit = transport::receiveBufferLimit();
-  const std::size_t wanted = 2 * kFrameBytesPerParticle * capacity;
-  if (limit == 0 || limit >= wanted) return;
-  spdlog::warn(
-      "the kernel's receive buffers hold {} kB, two full frames of this scene are {} kB: frames may be lost at a "
-      "subscriber. Remedy: sysctl -w net.core.rmem_max={} (config/dds/60-bleedsim.conf)",
-      limit / 1000, wanted / 1000, std::max<std::size_t>(wanted, 4'194'304));
-}
 
 void logStart(const ServiceOptions& options, const Service& service, const scene::SceneDescription& scene,
               std::string_view simd) {
@@ -45,7 +31,6 @@ ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory fac
     spdlog::error("{}", service.status().message());
     return service.status().code() == StatusCode::unavailable ? ExitCode::name_taken : ExitCode::failure;
   }
-  warnOfSmallBuffer(scene->world.capacity);
   logStart(service_options, **service, *scene, simd);
   signals.start([&service] {
     spdlog::info("asked to end");

@@ -1,8 +1,10 @@
 #include "service/daemon/publisher.h"
 
+#include <spdlog/spdlog.h>
 #include <utility>
 
 #include "service/transport/clock.h"
+#include "service/transport/interfaces.h"
 
 namespace bleedsim::daemon {
 namespace {
@@ -39,6 +41,7 @@ Publisher::Publisher(const dds::SessionIdentity& identity, Channels& channels, S
     : session_{identity.uuid},
       channels_{channels},
       guard_{std::move(guard)},
+      buffer_watch_{transport::receiveBufferLimit()},
       writers_{std::move(writers)},
       frame_encoder_{identity.uuid},
       stats_encoder_{identity.uuid},
@@ -123,6 +126,7 @@ void Publisher::publishStatus() {
   shown_revision_ = reading.revision;
   next_status_ = now + kStatusPeriod;
   writeStatus(reading.report);
+  if (const auto warning = buffer_watch_.note(reading.report.full_frame_bytes)) spdlog::warn("{}", *warning);
 }
 
 void Publisher::writeStatus(const dds::StatusReport& report) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "service/daemon/buffer_watch.h"
 #include "service/daemon/channels.h"
 #include "service/daemon/session_guard.h"
 #include "service/dds/frame_encoder.h"
@@ -61,6 +62,7 @@ class Publisher {
   dds::Uuid session_;
   Channels& channels_;
   SessionGuard guard_;
+  BufferWatch buffer_watch_;
   Writers writers_;
   dds::FrameEncoder frame_encoder_;
   dds::FrameStatsEncoder stats_encoder_;

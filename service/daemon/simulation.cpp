@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "service/dds/frame_encoder.h"
 #include "service/transport/clock.h"
 
 namespace bleedsim::daemon {
@@ -95,6 +96,7 @@ void Simulation::showState() {
     report.particles = world_->particleCount();
     report.wounds = static_cast<std::uint32_t>(world_->wounds().size());
     report.text = fault_text_;
+    report.full_frame_bytes = scene_->world.capacity * dds::frameBytesPerParticle(attributes_);
   });
   channels_.publisher.notify();
 }

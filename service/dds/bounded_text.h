@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace bleedsim::dds {
@@ -14,6 +15,20 @@ inline std::string_view cutText(std::string_view text, std::size_t limit) {
   std::size_t end = limit;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   return text.substr(0, end);
+}
+
+/// `text`, or its beginning with "..." at the end where it is longer than `limit` bytes: whole words where the last one starts in
+/// the second half, so that a person sees that something is missing and no number is cut to another.
+inline std::string shortened(std::string_view text, std::size_t limit) {
+  constexpr std::string_view kMore = "...";
+  if (text.size() <= limit || limit < kMore.size()) return std::string{cutText(text, limit)};
+  std::string_view kept = cutText(text, limit - kMore.size());
+  if (text[kept.size()] != ' ' && text[kept.size()] != '\n') {
+    const std::size_t gap = kept.find_last_of(" \n");
+    if (gap != std::string_view::npos && gap >= limit / 2) kept = kept.substr(0, gap);
+  }
+  kept = kept.substr(0, kept.find_last_not_of(" \n") + 1);
+  return std::string{kept}.append(kMore);
 }
 
 /// Fills `to` with as much of `from` as fits, always terminated.

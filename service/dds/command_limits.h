@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "service/sph/frame_rate.h"
+
 namespace bleedsim::dds {
 
 /// Both ends are allowed.
@@ -25,7 +27,7 @@ inline constexpr Limits kDischargeLimits{0.0, 1.0, "1; 0 takes the default"};
 inline constexpr Limits kForceLimits{-1e6, 1e6, "N"};
 inline constexpr Limits kDurationLimits{1e-9, 1e6, "simulated s"};
 inline constexpr Limits kPaceLimits{1e-4, 1e3, "simulated s per s"};
-inline constexpr Limits kFrameRateLimits{0.01, 1e4, "frames per simulated s; 0 keeps the rate"};
+inline constexpr Limits kFrameRateLimits{sph::kMinFrameRate, sph::kMaxFrameRate, "frames per simulated s; 0 keeps the rate"};
 inline constexpr double kDefaultDischargeCoefficient = 0.61;
 
 inline constexpr std::uint32_t kMinPolygonPoints = 3;

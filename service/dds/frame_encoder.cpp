@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little);
 namespace {
 
 constexpr std::size_t kScalarBytes = 4;
-constexpr std::size_t kMaxComponents = 3 + 1 + 3 + 1 + 1;
+constexpr std::uint32_t kEveryAttribute = sph::kFrameVelocity | sph::kFrameDensity | sph::kFrameViscosity;
 
 /// Writes one attribute after the other.
 class PayloadWriter {
@@ -53,13 +53,21 @@ void appendCounter(std::vector<bleed_v1_Counter>& counters, std::string_view nam
   counters.back().value = value;
 }
 
+std::size_t frameBytesPerParticle(std::uint32_t attributes) {
+  std::size_t components = 3 + 1;
+  if ((attributes & sph::kFrameVelocity) != 0) components += 3;
+  if ((attributes & sph::kFrameDensity) != 0) components += 1;
+  if ((attributes & sph::kFrameViscosity) != 0) components += 1;
+  return components * kScalarBytes;
+}
+
 FrameEncoder::FrameEncoder(const Uuid& session) {
   transport::copyUuid(session, sample_.session);
   sample_.attributes = {kMaxAttributes, 0, attributes_.data(), false};
 }
 
 void FrameEncoder::reserve(std::uint32_t particles) {
-  const std::size_t bytes = std::size_t{particles} * kMaxComponents * kScalarBytes;
+  const std::size_t bytes = std::size_t{particles} * frameBytesPerParticle(kEveryAttribute);
   if (payload_.size() < bytes) payload_.resize(bytes);
 }
 

@@ -13,6 +13,9 @@
 
 namespace bleedsim::dds {
 
+/// Payload bytes of one particle: position, id and the FrameAttribute bits.
+std::size_t frameBytesPerParticle(std::uint32_t attributes);
+
 class FrameEncoder {
  public:
   explicit FrameEncoder(const Uuid& session);

@@ -15,6 +15,7 @@ struct ClientRun {
   Uuid client{};
   std::uint64_t run = 0;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): the check takes the zero in the generated comparison for a pointer
   auto operator<=>(const ClientRun&) const = default;
 };
 
@@ -23,6 +24,7 @@ struct RequestKey {
   ClientRun origin;
   std::uint64_t seq = 0;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): as above
   auto operator<=>(const RequestKey&) const = default;
 };
 
@@ -31,6 +33,7 @@ struct InstrumentKey {
   Uuid client{};
   std::uint32_t tool = 0;
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): as above
   auto operator<=>(const InstrumentKey&) const = default;
 };
 

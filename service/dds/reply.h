@@ -55,7 +55,7 @@ struct Reply {
   double sim_time = 0.0;           ///< s
   std::uint32_t epoch = 0;
   std::uint32_t object_id = 0;  ///< of the wound added or touched, 0: none
-  std::string reason;           ///< for a person; cut to 127 bytes on the wire
+  std::string reason;           ///< for a person; at most 127 bytes on the wire, whole words and "..." of a longer one
   std::int64_t client_stamp_ns = 0;
   std::int64_t receive_stamp_ns = 0;
   std::int64_t reply_stamp_ns = 0;  ///< of the first time it was sent

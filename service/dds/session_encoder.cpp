@@ -42,7 +42,7 @@ const bleed_v1_Status& StatusEncoder::encode(const StatusReport& report, std::sp
   for (const NamedCount& count : counts) appendCounter(counters_, count.name, count.value);
   const auto length = static_cast<std::uint32_t>(counters_.size());
   sample_.counters = {length, length, counters_.data(), false};
-  copyText(report.text, sample_.text);
+  copyText(shortened(report.text, sizeof sample_.text - 1), sample_.text);
   sample_.monotonic_stamp_ns = transport::monotonicNow();
   sample_.realtime_stamp_ns = transport::realtimeNow();
   return sample_;
@@ -98,7 +98,7 @@ bleed_v1_Reply encodeReply(const Reply& reply) {
   out.sim_time_s = reply.sim_time;
   out.epoch = reply.epoch;
   out.object_id = reply.object_id;
-  copyText(cutText(reply.reason, kMaxReasonBytes), out.reason);
+  copyText(shortened(reply.reason, kMaxReasonBytes), out.reason);
   out.client_stamp_ns = reply.client_stamp_ns;
   out.receive_stamp_ns = reply.receive_stamp_ns;
   out.reply_stamp_ns = reply.reply_stamp_ns;
@@ -115,7 +115,7 @@ bleed_v1_Journal encodeJournal(const Uuid& session, const JournalEntry& entry) {
   bleed_v1_JournalBody& body = out.body;
   std::visit(Overloaded{[&body](const Decision& decision) {
                           body._d = bleed_v1_JOURNAL_DECISION;
-                          copyText(decision.text, body._u.decision);
+                          copyText(shortened(decision.text, sizeof body._u.decision - 1), body._u.decision);
                         },
                         [&body](const RequestTaken& taken) {
                           body._d = bleed_v1_JOURNAL_REQUEST;

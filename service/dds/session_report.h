@@ -1,6 +1,7 @@
 // What the session tells about itself on the scene and status topics.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -44,6 +45,7 @@ struct StatusReport {
   std::uint32_t particles = 0;
   std::uint32_t wounds = 0;
   std::string text;
+  std::size_t full_frame_bytes = 0;  ///< payload of a frame at capacity; not published
 };
 
 /// What late joiners need to read frames. One per epoch.

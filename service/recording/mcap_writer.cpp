@@ -124,21 +124,21 @@ std::string McapWriter::summary(std::uint64_t start) const {
   std::string out;
   std::string offsets;
   std::uint64_t group_start = start;
-  const auto endGroup = [&](Opcode group) {
+  const auto end_group = [&](Opcode group) {
     const std::uint64_t end = start + out.size();
     if (end != group_start) appendSummaryOffset(offsets, group, group_start, end - group_start);
     group_start = end;
   };
   for (const Schema& schema : schemas_) appendRecord(out, schema);
-  endGroup(Opcode::schema);
+  end_group(Opcode::schema);
   for (const Channel& channel : channels_) appendRecord(out, channel);
-  endGroup(Opcode::channel);
+  end_group(Opcode::channel);
   appendRecord(out, statistics_);
-  endGroup(Opcode::statistics);
+  end_group(Opcode::statistics);
   for (const ChunkIndex& index : chunk_indexes_) appendRecord(out, index);
-  endGroup(Opcode::chunk_index);
+  end_group(Opcode::chunk_index);
   for (const MetadataIndex& index : metadata_indexes_) appendRecord(out, index);
-  endGroup(Opcode::metadata_index);
+  end_group(Opcode::metadata_index);
 
   const std::uint64_t offsets_start = start + out.size();
   out += offsets;

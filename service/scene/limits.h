@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "service/sph/frame_rate.h"
+
 namespace bleedsim::scene {
 
 /// Both ends are allowed.
@@ -49,7 +51,7 @@ inline constexpr Range kDischargeCoefficient{0.1, 1.0, "1"};
 inline constexpr Range kBlockSpeed{0.0, 100.0, "m/s, its length"};
 inline constexpr Range kJitter{0.0, 0.2, "spacings"};
 
-inline constexpr Range kFrameRate{1.0, 1000.0, "Hz"};
+inline constexpr Range kFrameRate{sph::kMinFrameRate, sph::kMaxFrameRate, "frames per simulated s"};
 inline constexpr Range kInstrumentExpiry{0.01, 10.0, "s"};
 inline constexpr Range kMaxWounds{1.0, 1023.0, "wounds"};
 

@@ -32,16 +32,16 @@ struct CarreauYasudaRheology {
 };
 /// sqrt(mu) = sqrt(mu_c) + sqrt(tau_y (1 - exp(-g/g_r))/g): Casson's law, regularised at rest (Papanastasiou 1987).
 struct CassonRheology {
-  double yield_stress = 0.005;            ///< tau_y, Pa
-  double viscosity = 0.0035;              ///< mu_c, Pa s
+  double yield_stress = 0.005;             ///< tau_y, Pa
+  double viscosity = 0.0035;               ///< mu_c, Pa s
   double regularisation_shear_rate = 0.1;  ///< g_r, 1/s
 };
 using Rheology = std::variant<NewtonianRheology, CarreauYasudaRheology, CassonRheology>;
 
 enum class ViscositySolve {
-  automatic,   ///< implicit where the explicit limit would be the smallest limit of the time step
-  explicit_,   ///< in the pair loop
-  implicit     ///< conjugate gradients after the kick
+  automatic,  ///< implicit where the explicit limit would be the smallest limit of the time step
+  explicit_,  ///< in the pair loop
+  implicit    ///< conjugate gradients after the kick
 };
 struct ViscositySettings {
   double viscosity = 0.00345;  ///< Pa s, of every Newtonian particle that does not bring its own
@@ -60,14 +60,14 @@ struct SurfaceTensionSettings {
 
 /// dP/dt = div(k grad P) - s [r phi(g) P (1 - P) + k_w A_w P + k_a A_a P], mu = b exp(-a P): physics.md section 3.
 struct PlateletSettings {
-  double fresh = 0.99;               ///< P of blood that comes in
-  double diffusivity = 1e-9;         ///< k, m^2/s
-  double activation_rate = 0.0153;   ///< r, 1/s: ln 99 over a half time of 300 s
-  double wall_rate = 0.01;           ///< k_w, 1/s
-  double air_rate = 0.002;           ///< k_a, 1/s
-  double shear_gate = 400.0;         ///< shear rate at which blood stays liquid, 1/s
-  double clot_viscosity = 10.0;      ///< b, Pa s
-  double clot_speedup = 1.0;         ///< s
+  double fresh = 0.99;              ///< P of blood that comes in
+  double diffusivity = 1e-9;        ///< k, m^2/s
+  double activation_rate = 0.0153;  ///< r, 1/s: ln 99 over a half time of 300 s
+  double wall_rate = 0.01;          ///< k_w, 1/s
+  double air_rate = 0.002;          ///< k_a, 1/s
+  double shear_gate = 400.0;        ///< shear rate at which blood stays liquid, 1/s
+  double clot_viscosity = 10.0;     ///< b, Pa s
+  double clot_speedup = 1.0;        ///< s
 };
 
 /// (34): h_i follows lambda (m/rho_i)^(1/3), bounded and relaxed.
@@ -79,10 +79,10 @@ struct CoreRadiusSettings {
 
 /// (35)(36) beside the other forces.
 struct RepulsionSettings {
-  double strength = 1.5;         ///< D* = D/(m c0^2 dx)
+  double strength = 1.5;          ///< D* = D/(m c0^2 dx)
   double contact_distance = 0.9;  ///< 2 r_i/dx, at most 1: beyond it the fluid would expand
-  int power_1 = 6, power_2 = 4;  ///< n1 > n2
-  double damping = 1.0;          ///< of pairs in contact, in c0/dx
+  int power_1 = 6, power_2 = 4;   ///< n1 > n2
+  double damping = 1.0;           ///< of pairs in contact, in c0/dx
 };
 
 /// a = -k_ad f(d) n of the tissue, f = 1 for d < dx, falling linearly to 0 at h.

@@ -22,8 +22,8 @@ constexpr std::uint32_t kMostForceSources = 65'536;
 constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::count)> kStageNames{
     "emit", "move", "neighbors", "tissue", "density", "force", "body", "integrate"};
 constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)> kCounterNames{
-    "speed_clamped",   "acceleration_clamped", "tissue_projected",    "left_domain",  "emission_refused",
-    "inlet_withdrawn", "neighbor_overflow",    "force_without_fluid", "force_expired"};
+    "speed_clamped",   "acceleration_clamped", "tissue_projected",    "left_domain",   "emission_refused",
+    "inlet_withdrawn", "neighbor_overflow",    "force_without_fluid", "force_expired", "viscosity_unsolved"};
 
 Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
 
@@ -120,13 +120,13 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
 
 template <class Real>
 Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptions& options, SimdTarget target,
-                                     const PassTable<Real>& table) {
+                                     const WorldTables<Real>& tables) {
   const SmoothingKernel kernel{d.kernel, d.supportRadius()};
   const RestLattice lattice = calibrateRestLattice(kernel, d.spacing, d.rest_density);
   Result<TissueField<Real>> tissue = TissueField<Real>::create(
       d.tissue, {.kernel = kernel, .spacing = d.spacing, .particle_mass = lattice.particle_mass, .rest_density = d.rest_density});
   if (!tissue) return tissue.status();
-  auto world = std::make_unique<WorldCore<Real>>(d, options, target, table, lattice, std::move(*tissue));
+  auto world = std::make_unique<WorldCore<Real>>(d, options, target, tables, lattice, std::move(*tissue));
   if (Status status = world->populate(); !status.ok()) return status;
   return std::unique_ptr<World>{std::move(world)};
 }
@@ -152,7 +152,8 @@ Result<std::unique_ptr<World>> createWorld(const WorldDescription& description, 
     if (options.simd != SimdTarget::automatic && options.simd != SimdTarget::scalar) {
       return invalid("double precision is the reference and runs on the scalar target only; use scalar or auto");
     }
-    return build<double>(description, options, SimdTarget::scalar, referencePasses(choice));
+    return build<double>(description, options, SimdTarget::scalar,
+                         {referencePasses(choice), referenceSweeps(sweepChoice(description))});
   }
   const SimdTarget target = options.simd == SimdTarget::automatic ? availableSimdTargets().front() : options.simd;
   const PassTable<float>* table = findPasses(target, choice);
@@ -163,7 +164,7 @@ Result<std::unique_ptr<World>> createWorld(const WorldDescription& description, 
     return Status{StatusCode::unsupported, "this machine or build lacks the SIMD target '" + std::string{simdTargetName(target)} +
                                                "'; available: " + names};
   }
-  return build<float>(description, options, target, *table);
+  return build<float>(description, options, target, {*table, *findSweeps(target, sweepChoice(description))});
 }
 
 void FrameBuffer::reserve(std::uint32_t capacity, std::uint32_t attributes_wanted) {

@@ -46,6 +46,7 @@ enum class Counter {
   neighbor_overflow,     ///< particle-steps beyond the neighbour list, handled by the slow path
   force_without_fluid,   ///< source-steps with no particle within reach
   force_expired,         ///< force sources that ended by their time
+  viscosity_unsolved,    ///< steps whose implicit viscosity did not reach its tolerance
   count
 };
 std::string_view counterName(Counter counter);
@@ -92,6 +93,7 @@ struct WorldStats {
   double mean_density_error = 0.0;  ///< mean of max(0, rho/rho0 - 1)
   double max_density_error = 0.0;
   double max_speed = 0.0;                                              ///< m/s
+  int viscosity_iterations = 0;                                        ///< of the implicit solve in the last step; 0: explicit
   double kinetic_energy = 0.0;                                         ///< J
   Vec3 momentum = Vec3::Zero();                                        ///< kg m/s, of the free particles
   Vec3 center = Vec3::Zero();                                          ///< m, of the free particles' mass; zero without any

@@ -12,6 +12,9 @@
 namespace bleedsim::sph {
 namespace {
 
+// The implicit solve stays on until the explicit limit has left the others this far behind: it must not flicker.
+constexpr double kImplicitBand = 1.2;
+
 // Below this a second thread costs more than it brings.
 constexpr std::uint32_t kParticlesForThreads = 2000;
 
@@ -26,7 +29,7 @@ std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 template <class Real>
 WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptions& options, SimdTarget target,
-                           const PassTable<Real>& table, const RestLattice& lattice, TissueField<Real> tissue)
+                           const WorldTables<Real>& tables, const RestLattice& lattice, TissueField<Real> tissue)
     : description_{description},
       target_{target},
       speed_of_sound_{sph::speedOfSound(description)},
@@ -42,12 +45,8 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
       sorted_{description.capacity, particleFields<Real>(description), Particles<Real>::kArrays},
       grid_{description.capacity,        asArray(description.domain.lower / h_),    asArray(description.domain.upper / h_),
             description.domain.periodic, kThroatMargin / description.support_ratio, options.threads},
-      passes_{table,
-              pairLayout(description),
-              pairConstants<Real>(description, lattice, speed_of_sound_),
-              description.capacity,
-              description.support_ratio,
-              options.threads},
+      passes_{tables.passes,        pairLayout(description),   pairConstants<Real>(description, lattice, speed_of_sound_),
+              description.capacity, description.support_ratio, options.threads},
       walls_{std::move(tissue), wallConstants<Real>(description, lattice, speed_of_sound_), description.capacity,
              options.threads},
       wounds_{description, speed_of_sound_},
@@ -61,6 +60,14 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
   if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, target);
   if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
   if (effects.platelets) clotting_.emplace(*effects.platelets, description.spacing, description.rest_density, walls_.field());
+  if (mayNeedImplicitViscosity(description, speed_of_sound_)) {
+    const ViscositySettings& viscosity = *description.effects.viscosity;
+    const bool varies = viscosityVaries(description);
+    const auto product = varies ? tables.sweeps.viscous_product : tables.sweeps.uniform_viscous_product;
+    implicit_viscosity_.emplace(ImplicitSettings{viscosity.solve_tolerance, viscosity.max_iterations}, product,
+                                Real(5) * pairConstants<Real>(description, lattice, speed_of_sound_).viscosity_scale,
+                                description.capacity);
+  }
   if (description.effects.applied_force) {
     applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_,
                            (description.domain.upper - description.domain.lower).norm());
@@ -92,12 +99,14 @@ Status WorldCore<Real>::populate() {
   emit(0.0);
   chooseShares();
   for (std::uint32_t i = 0; i < count_; ++i) grid_.cells()[i] = 0;
+  // Implicit viscosity is no part of the accelerations, and these are the first ones.
+  solving_viscosity_ = implicit_viscosity_.has_value() && (description_.effects.viscosity->solve == ViscositySolve::implicit ||
+                                                           limits_.viscous < 0.4 * limits_.spacing / limits_.speed_of_sound);
   findNeighbors(boundsOf());
   computeAccelerations();
   finishStep(0.0);
   if (faulted_) return {StatusCode::internal, "the scene's first accelerations are not finite"};
-  next_dt_ = stableTimeStep(limits_, max_speed_, std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2)),
-                            std::numeric_limits<double>::infinity());
+  chooseTimeStep(std::numeric_limits<double>::infinity());
   return {};
 }
 
@@ -116,7 +125,7 @@ Status WorldCore<Real>::step(double dt_limit) {
   computeAccelerations();
   finishStep(dt);
   if (faulted_) return {StatusCode::internal, "the state is not finite; the world is faulted and stays as it is"};
-  next_dt_ = stableTimeStep(limits_, max_speed_, std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2)), stable);
+  chooseTimeStep(stable);
   last_dt_ = dt;
   time_ += dt;
   ++steps_;
@@ -209,9 +218,10 @@ void WorldCore<Real>::computeAccelerations() {
     const double largest = rheology_->update(particles_, passes_, shearRates(), count_, shares_, *executor_);
     if (largest > 0.0) limits_.viscous = diffusionLimit(description_, largest / description_.rest_density);
   }
-  passes_.force(grid_, particles_, count_, shares_, *executor_);
+  passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
   clock_.lap(Stage::force);
-  walls_.addForces(particles_, passes_, shares_, *executor_);
+  if (solving_viscosity_) implicit_viscosity_->clearDrag(count_);
+  walls_.addForces(particles_, passes_, shares_, *executor_, solving_viscosity_ ? implicit_viscosity_->drag() : nullptr);
   if (applied_force_ && !applied_force_->empty()) {
     const AppliedForceEvents events = applied_force_->add(time_, grid_, particles_, passes_.acceleration());
     counter(Counter::force_expired) += events.expired;
@@ -237,6 +247,7 @@ void WorldCore<Real>::finishStep(double dt) {
   }
   faulted_ = !total.finite;
   if (faulted_) return;
+  if (solving_viscosity_ && dt > 0.0) solveViscosity(dt);
   if (clotting_) {
     clotting_->advance(particles_, passes_, shearRates(), walls_, grid_, static_cast<Real>(dt), count_, shares_, *executor_);
   }
@@ -244,6 +255,28 @@ void WorldCore<Real>::finishStep(double dt) {
   counter(Counter::speed_clamped) += total.speed_clamped;
   counter(Counter::acceleration_clamped) += total.acceleration_clamped;
   max_speed_ = std::sqrt(static_cast<double>(total.max_speed2));
+}
+
+template <class Real>
+void WorldCore<Real>::solveViscosity(double dt) {
+  const SolveOutcome outcome = implicit_viscosity_->solve(dt, grid_, particles_, passes_, count_, shares_, *executor_);
+  viscosity_iterations_ = outcome.iterations;
+  if (!outcome.converged) ++counter(Counter::viscosity_unsolved);
+}
+
+template <class Real>
+void WorldCore<Real>::chooseTimeStep(double before) {
+  TimeStepLimits inviscid = limits_;
+  inviscid.viscous = std::numeric_limits<double>::infinity();
+  const double acceleration = std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2));
+  if (implicit_viscosity_) {
+    solving_viscosity_ =
+        description_.effects.viscosity->solve == ViscositySolve::implicit ||
+        limits_.viscous < (solving_viscosity_ ? kImplicitBand : 1.0) *
+                              stableTimeStep(inviscid, max_speed_, acceleration, std::numeric_limits<double>::infinity());
+    if (!solving_viscosity_) viscosity_iterations_ = 0;
+  }
+  next_dt_ = stableTimeStep(solving_viscosity_ ? inviscid : limits_, max_speed_, acceleration, before);
 }
 
 template <class Real>
@@ -317,6 +350,7 @@ void WorldCore<Real>::collectStats(WorldStats& stats) const {
   stats.emitted_volume = wounds_.emittedVolume();
   stats.commanded_volume = wounds_.commandedVolume();
   stats.max_speed = max_speed_;
+  stats.viscosity_iterations = viscosity_iterations_;
   addParticleStats(particles_, passes_.density(), count_, h_, description_.rest_density, lattice_.particle_mass, stats);
   stats.stage_seconds = clock_.seconds();
   stats.counters = counters_;
@@ -346,6 +380,7 @@ MemoryUse WorldCore<Real>::memory() const {
   use.grid = grid_.bytes();
   use.tissue = walls_.bytes();
   if (shear_rate_) use.effects += shear_rate_->bytes();
+  if (implicit_viscosity_) use.effects += implicit_viscosity_->bytes();
   return use;
 }
 

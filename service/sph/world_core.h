@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "service/sph/effects/applied_force.h"
+#include "service/sph/effects/implicit_viscosity.h"
 #include "service/sph/effects/platelets.h"
 #include "service/sph/effects/rheology.h"
 #include "service/sph/effects/shear_rate.h"
@@ -25,11 +26,18 @@
 
 namespace bleedsim::sph {
 
+/// The compiled code that a world runs.
+template <class Real>
+struct WorldTables {
+  const PassTable<Real>& passes;
+  const SweepTable<Real>& sweeps;
+};
+
 template <class Real>
 class WorldCore final : public World {
  public:
-  /// `tissue` of the description, already built; `table` of `target`.
-  WorldCore(const WorldDescription& description, const WorldOptions& options, SimdTarget target, const PassTable<Real>& table,
+  /// `tissue` of the description, already built; `tables` of `target`.
+  WorldCore(const WorldDescription& description, const WorldOptions& options, SimdTarget target, const WorldTables<Real>& tables,
             const RestLattice& lattice, TissueField<Real> tissue);
 
   /// Places the fluid blocks and opens the scene's wounds; then computes the first accelerations. Once, before the first step.
@@ -58,6 +66,8 @@ class WorldCore final : public World {
   void findNeighbors(const Bounds<Real>& bounds);
   void computeAccelerations();
   void finishStep(double dt);
+  void solveViscosity(double dt);
+  void chooseTimeStep(double before);
 
   const Real* shearRates() const { return shear_rate_ ? shear_rate_->data() : nullptr; }
   void makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet);
@@ -87,6 +97,9 @@ class WorldCore final : public World {
   std::optional<ShearRate<Real>> shear_rate_;
   std::optional<EffectiveViscosity<Real>> rheology_;
   std::optional<Clotting<Real>> clotting_;
+  std::optional<ImplicitViscosity<Real>> implicit_viscosity_;
+  bool solving_viscosity_ = false;  // implicitly, in this step
+  int viscosity_iterations_ = 0;
   std::vector<DriftResult<Real>> drift_results_;
   std::vector<KickResult<Real>> kick_results_;
 

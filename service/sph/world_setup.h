@@ -9,6 +9,7 @@
 #include "service/sph/effects/rheology.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/passes/pair_passes.h"
+#include "service/sph/passes/sweep_table.h"
 #include "service/sph/rest_lattice.h"
 #include "service/sph/tissue/wall_effects.h"
 #include "service/sph/world_description.h"
@@ -43,8 +44,8 @@ inline PairSet pairSet(const WorldDescription& description) {
   return set;
 }
 
-/// The largest viscosity that any particle can have at the start, Pa s; 0 without the effect. Where viscosity changes, the time step
-/// then follows that of the moment.
+/// The largest viscosity that any particle can have at the start, Pa s; 0 without the effect. Where viscosity changes, the time
+/// step then follows that of the moment.
 inline double largestViscosity(const WorldDescription& description) {
   const EffectSettings& effects = description.effects;
   if (!effects.viscosity) return 0.0;
@@ -64,6 +65,23 @@ inline double largestViscosity(const WorldDescription& description) {
 inline double diffusionLimit(const WorldDescription& description, double nu) {
   const double h = description.supportRadius();
   return 0.045 * h * h / nu;
+}
+
+/// The largest viscosity that any particle can come to have, Pa s: by its block, at rest, or clotted.
+inline double largestPossibleViscosity(const WorldDescription& description) {
+  if (!description.effects.viscosity) return 0.0;
+  double largest = largestViscosity(description);
+  if (description.effects.platelets) largest = std::max(largest, description.effects.platelets->clot_viscosity);
+  return largest;
+}
+
+/// Whether viscosity is solved implicitly, or may come to be.
+inline bool mayNeedImplicitViscosity(const WorldDescription& description, double speed_of_sound) {
+  const auto& viscosity = description.effects.viscosity;
+  if (!viscosity || viscosity->solve == ViscositySolve::explicit_) return false;
+  if (viscosity->solve == ViscositySolve::implicit) return true;
+  const double viscous = diffusionLimit(description, largestPossibleViscosity(description) / description.rest_density);
+  return viscous < 0.4 * description.spacing / speed_of_sound;
 }
 
 inline TimeStepLimits timeStepLimits(const WorldDescription& description, double speed_of_sound) {
@@ -115,6 +133,10 @@ PairConstants<Real> pairConstants(const WorldDescription& description, const Res
 inline PassChoice passChoice(const WorldDescription& description) {
   const auto& periodic = description.domain.periodic;
   return {description.kernel, periodic[0] || periodic[1] || periodic[2]};
+}
+
+inline SweepChoice sweepChoice(const WorldDescription& description) {
+  return {passChoice(description).periodic, description.effects.core_radius.has_value()};
 }
 
 inline PairLayout pairLayout(const WorldDescription& description) {

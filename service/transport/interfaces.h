@@ -22,7 +22,7 @@ std::vector<NetworkInterface> listInterfaces();
 Result<NetworkInterface> findInterface(const std::string& name, const std::vector<NetworkInterface>& existing);
 
 /// net.core.rmem_max in bytes, 0 when it cannot be read: the largest receive buffer a process gets. Less than two frames
-/// (12 bytes per particle and position) loses frames.
+/// loses frames.
 std::size_t receiveBufferLimit();
 
 }  // namespace bleedsim::transport

@@ -124,12 +124,12 @@ sph::FrameBuffer frameOf(const sph::World& world) {
 
 sph::Vec3 positionOf(const sph::FrameBuffer& frame, std::size_t particle) {
   const float* p = frame.position.data() + 3 * particle;
-  return {double{p[0]}, double{p[1]}, double{p[2]}};
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
 
 sph::Vec3 velocityOf(const sph::FrameBuffer& frame, std::size_t particle) {
   const float* v = frame.velocity.data() + 3 * particle;
-  return {double{v[0]}, double{v[1]}, double{v[2]}};
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
 sph::Vec3 momentumOf(const sph::World& world) {

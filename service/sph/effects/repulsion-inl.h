@@ -42,7 +42,8 @@ class Repulsion {
     const V ex = p.dx * inverse_distance;
     const V ey = p.dy * inverse_distance;
     const V ez = p.dz * inverse_distance;
-    const V closing = L::mulAdd(p.field[kRecordVz] - vz_, ez, L::mulAdd(p.field[kRecordVy] - vy_, ey, (p.field[kRecordVx] - vx_) * ex));
+    const V closing =
+        L::mulAdd(p.field[kRecordVz] - vz_, ez, L::mulAdd(p.field[kRecordVy] - vy_, ey, (p.field[kRecordVx] - vx_) * ex));
     const V along = L::subMul(L::set(job_.repulsion_damping) * (pe - one) * closing, push, one);
     sums.ax = L::mulAdd(along, ex, sums.ax);
     sums.ay = L::mulAdd(along, ey, sums.ay);

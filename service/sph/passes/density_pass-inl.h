@@ -15,8 +15,8 @@
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/passes/direct_search-inl.h"
-#include "service/sph/passes/pass_jobs.h"
 #include "service/sph/passes/kernels-inl.h"
+#include "service/sph/passes/pass_jobs.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
@@ -284,7 +284,8 @@ class DensityPass {
         L::gatherGroup(job_.record + kRecordInverseViscosity, list, field);
         const V inverse2 = field[kRecordInverseRadius2 - kRecordInverseViscosity];
         const V factor = field[kRecordRadiusFactor - kRecordInverseViscosity] / inverse2;
-        const V both = L::mulAdd(own_factor, Kernel::weight(distance2 * own_inverse2), factor * Kernel::weight(distance2 * inverse2));
+        const V both =
+            L::mulAdd(own_factor, Kernel::weight(distance2 * own_inverse2), factor * Kernel::weight(distance2 * inverse2));
         sum = L::mulAdd(L::set(Real(0.5)), both, sum);
       }
     }

@@ -93,9 +93,9 @@ class ListSweep {
     while (job.grid.start[job.grid.cell(row, cx) + 1] <= i) ++cx;
     NeighborRun<Real> runs[GridView<Real>::kMaxRuns];
     const int run_count = job.grid.template neighborRuns<kPeriodic>(row, cx, runs);
-    DirectSearch<L, kPeriodic>::run(
-        job, runs, run_count, i, stride,
-        [&](const Real*, const std::uint32_t* list, int blocks) { addBlocks(job, own, list, blocks, body); });
+    DirectSearch<L, kPeriodic>::run(job, runs, run_count, i, stride, [&](const Real*, const std::uint32_t* list, int blocks) {
+      addBlocks(job, own, list, blocks, body);
+    });
     body.finish(job, i);
   }
 };

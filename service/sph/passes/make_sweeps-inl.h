@@ -7,6 +7,7 @@
 #endif
 
 #include "service/sph/effects/shear_rate-inl.h"
+#include "service/sph/effects/viscous_product-inl.h"
 #include "service/sph/passes/list_sweep-inl.h"
 #include "service/sph/passes/sweep_table.h"
 
@@ -17,6 +18,9 @@ template <class L, bool kPeriodic, bool kRadius>
 constexpr SweepTable<typename L::Scalar> makeSweeps() {
   SweepTable<typename L::Scalar> table;
   table.shear_rate = &ListSweep<L, WendlandC2, kPeriodic, kRadius, ShearMoments<L>>::run;
+  table.viscous_product = &ListSweep<L, WendlandC2, kPeriodic, kRadius, ViscousProduct<L, true>>::run;
+  if constexpr (!kRadius)
+    table.uniform_viscous_product = &ListSweep<L, WendlandC2, kPeriodic, false, ViscousProduct<L, false>>::run;
   return table;
 }
 

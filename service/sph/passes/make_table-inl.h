@@ -68,7 +68,8 @@ constexpr std::array<ForceFunction<typename L::Scalar>, PairSet::kCount> forcePa
   static_assert(PairSet::kCount <= 128, "an effect that needs more sets becomes a sweep of its own");
   return []<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
     return std::array<ForceFunction<typename L::Scalar>, PairSet::kCount>{passAt<L, Kernel, kPeriodic, kRange, kIndex>()...};
-  }(std::make_index_sequence<PairSet::kCount>{});
+  }
+  (std::make_index_sequence<PairSet::kCount>{});
 }
 
 template <class L, template <class> class Kernel, bool kPeriodic, bool kTissue, SetRange kRange>

@@ -43,6 +43,7 @@ class PairPasses {
              double support_ratio, int shares)
       : density_function_{table.density[layout.tissue ? 1 : 0][layout.set.core_radius ? 1 : 0]},
         force_function_{table.force[layout.set.index()]},
+        inviscid_function_{table.force[withoutViscosity(layout.set).index()]},
         symmetric_{layout.set.pressure == PressureTerm::symmetric},
         groups_{recordGroups(layout.set, layout.tension)},
         constants_{constants},
@@ -120,9 +121,12 @@ class PairPasses {
     return overflowed;
   }
 
-  /// Accelerations by all pair effects; zero when the scene has none. `shares` as in density().
-  void force(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int shares, Executor& executor) {
-    if (force_function_ == nullptr) {
+  /// Accelerations by all pair effects, viscosity left out where it is solved implicitly; zero when there is none. `shares` as in
+  /// density().
+  void force(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int shares, Executor& executor,
+             bool viscous) {
+    const ForceFunction<Real> function = viscous ? force_function_ : inviscid_function_;
+    if (function == nullptr) {
       executor.run(shares, [&](int share) {
         const auto begin = grid.view().rowBegin(grid.firstRow(share, shares, count));
         const auto end = grid.view().rowBegin(grid.firstRow(share + 1, shares, count));
@@ -138,7 +142,7 @@ class PairPasses {
     job.repulsion_damping = constants_.repulsion_damping;
     std::copy_n(constants_.repulsion_powers, 2, job.repulsion_powers);
     job.acceleration = acceleration_.data();
-    sweep(grid, p, count, shares, executor, force_function_, job);
+    sweep(grid, p, count, shares, executor, function, job);
   }
 
   /// Runs a walk over the lists that density() made: `function` with a copy of `job` for each share, its SweepJob part filled.
@@ -189,6 +193,11 @@ class PairPasses {
   }
 
  private:
+  static PairSet withoutViscosity(PairSet set) {
+    set.viscosity = ViscosityTerm::none;
+    return set;
+  }
+
   /// The far dummy touches nothing and keeps every division defined.
   static Real dummyField(int field) {
     if (field <= kRecordZ) return Real(1e6);
@@ -198,6 +207,7 @@ class PairPasses {
 
   DensityFunction<Real> density_function_;
   ForceFunction<Real> force_function_;
+  ForceFunction<Real> inviscid_function_;
   bool symmetric_;
   int groups_;
   PairConstants<Real> constants_;

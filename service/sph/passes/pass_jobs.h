@@ -25,16 +25,16 @@ struct DensityJob {
   const Real* x = nullptr;  ///< position / h
   const Real* y = nullptr;
   const Real* z = nullptr;
-  const Real* share = nullptr;  ///< the tissue's share of density, 1; null without tissue
-  std::uint32_t count = 0;      ///< particles; record `count` is the far dummy
-  int groups = 1;               ///< record groups
-  Real reach2 = 1;              ///< squared search radius / h^2: 1, or of the largest particle with (34)
-  Real mass_weight = 0;         ///< m / h^3 * the kernel's norm: density = mass_weight * sum of the kernel's polynomial
-  Real rest_density = 0;        ///< kg/m^3
-  Real stiffness = 0;           ///< c0^2, m^2/s^2; 0 without pressure
-  Real background = 0;          ///< Pa
-  Real pressure_scale = 0;      ///< makes the record's pressure term, kRecordPressure
-  bool symmetric = false;       ///< kRecordPressure is for (17)
+  const Real* share = nullptr;           ///< the tissue's share of density, 1; null without tissue
+  std::uint32_t count = 0;               ///< particles; record `count` is the far dummy
+  int groups = 1;                        ///< record groups
+  Real reach2 = 1;                       ///< squared search radius / h^2: 1, or of the largest particle with (34)
+  Real mass_weight = 0;                  ///< m / h^3 * the kernel's norm: density = mass_weight * sum of the kernel's polynomial
+  Real rest_density = 0;                 ///< kg/m^3
+  Real stiffness = 0;                    ///< c0^2, m^2/s^2; 0 without pressure
+  Real background = 0;                   ///< Pa
+  Real pressure_scale = 0;               ///< makes the record's pressure term, kRecordPressure
+  bool symmetric = false;                ///< kRecordPressure is for (17)
   const Real* density_factor = nullptr;  ///< with (34): the lattice's factor at each particle's own radius
 
   NeighborLists* lists = nullptr;
@@ -64,11 +64,11 @@ struct SweepJob {
 
 template <class Real>
 struct ForceJob : SweepJob<Real> {
-  Real viscosity_scale = 0;      ///< uniform: K mu; harmonic: 2 K; K = calibrated kernel prefactor
-  Real platelet_scale = 0;       ///< K k/2, m^3/(kg s)
-  Real repulsion_scale = 0;      ///< D* c0^2 dx/h^2, m/s^2
-  Real repulsion_contact = 0;    ///< distance at which particles touch, /h
-  Real repulsion_damping = 0;    ///< 1/s
+  Real viscosity_scale = 0;    ///< uniform: K mu; harmonic: 2 K; K = calibrated kernel prefactor
+  Real platelet_scale = 0;     ///< K k/2, m^3/(kg s)
+  Real repulsion_scale = 0;    ///< D* c0^2 dx/h^2, m/s^2
+  Real repulsion_contact = 0;  ///< distance at which particles touch, /h
+  Real repulsion_damping = 0;  ///< 1/s
   int repulsion_powers[2] = {6, 4};
   Real* acceleration = nullptr;  ///< 4 per particle: x, y, z in m/s^2; the platelets' rate, 1/s
 };

@@ -1,4 +1,5 @@
-// The compiled passes of one SIMD target, kernel and kind of boundary: density passes, and one force pass for each set of effects.
+// The compiled passes of one SIMD target, kernel and kind of boundary: density passes, and one force pass for each set of
+// effects.
 #pragma once
 
 #include <array>

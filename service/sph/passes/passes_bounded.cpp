@@ -1,4 +1,5 @@
-// Float32 passes with Wendland C2 without periodic sides, compiled for every SIMD target; the scalar twin lives in the baseline target.
+// Float32 passes with Wendland C2 without periodic sides, compiled for every SIMD target; the scalar twin lives in the baseline
+// target.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "service/sph/passes/passes_bounded.cpp"
 #include <hwy/foreach_target.h>

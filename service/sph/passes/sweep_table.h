@@ -18,7 +18,8 @@ struct SweepTable {
   SweepFunction<ShearRateJob<Real>> shear_rate = nullptr;
   SweepFunction<NormalJob<Real>> normals = nullptr;
   SweepFunction<CurvatureJob<Real>> curvature = nullptr;
-  SweepFunction<ViscousProductJob<Real>> viscous_product = nullptr;
+  SweepFunction<ViscousProductJob<Real>> viscous_product = nullptr;  ///< viscosity differs between particles
+  SweepFunction<ViscousProductJob<Real>> uniform_viscous_product = nullptr;
 };
 
 /// Which variants: with periodic sides, with a support radius of each particle's own. Wendland C2 only.

@@ -91,35 +91,6 @@ Result<TissueField<Real>> TissueField<Real>::create(const std::vector<TissueDesc
 }
 
 template <class Real>
-bool TissueField<Real>::mayTouch(const std::array<Real, 3>& lower, const std::array<Real, 3>& upper) const {
-  const Real reach = reach_ * static_cast<Real>(1.001);  // rounding
-  std::array<Real, 3> center{};
-  std::array<Real, 3> extent{};
-  for (int axis = 0; axis < 3; ++axis) {
-    center[axis] = static_cast<Real>(0.5) * (lower[axis] + upper[axis]);
-    extent[axis] = static_cast<Real>(0.5) * (upper[axis] - lower[axis]);
-  }
-  for (const Plane& plane : planes_) {
-    const std::array<Real, 3>& n = plane.surface.normal();
-    const Real half = std::abs(n[0]) * extent[0] + std::abs(n[1]) * extent[1] + std::abs(n[2]) * extent[2];
-    if (plane.surface.value(center[0], center[1], center[2]) - half < reach) return true;
-  }
-  for (const Obstacle& obstacle : obstacles_) {
-    bool apart = false;
-    for (int axis = 0; axis < 3; ++axis) {
-      apart = apart || lower[axis] - obstacle.surface.upper(axis) >= reach || obstacle.surface.lower(axis) - upper[axis] >= reach;
-    }
-    if (!apart) return true;
-  }
-  const Real diagonal = vectorLength(extent[0], extent[1], extent[2]);
-  for (const Bowl& bowl : bowls_) {
-    const auto part = bowl.surface.parts(center[0], center[1], center[2]);
-    if (part.plane - extent[2] < reach && part.sphere - diagonal < reach) return true;
-  }
-  return false;
-}
-
-template <class Real>
 Real TissueField<Real>::frictionOf(const Share<Real>& share, Real distance) const {
   return share.friction + share.friction_depth / std::max(distance, static_cast<Real>(0.5) * spring_reach_);
 }

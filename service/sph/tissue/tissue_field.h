@@ -44,9 +44,6 @@ class TissueField {
 
   bool empty() const { return planes_.empty() && obstacles_.empty() && bowls_.empty(); }
 
-  /// False only if no point of the box is within reach of a wall or inside tissue.
-  bool mayTouch(const std::array<Real, 3>& lower, const std::array<Real, 3>& upper) const;
-
   /// False, and `out` untouched, if no wall is within h (a NaN position is within reach of none). Points inside tissue are.
   bool sample(Real x, Real y, Real z, WallSample<Real>& out) const;
 

@@ -81,12 +81,13 @@ class WallEffects {
     for (std::uint32_t k = 0; k < counts_[static_cast<std::size_t>(share)].touching; ++k) visit(list[k].particle, list[k].wall);
   }
 
-  /// Adds to the accelerations. Velocities are those of the half step.
-  void addForces(const Particles<Real>& p, PairPasses<Real>& passes, int shares, Executor& executor) const {
+  /// Adds to the accelerations. Velocities are those of the half step. With `drag`, friction goes there as a rate in 1/s, one for
+  /// each particle, instead of into the accelerations.
+  void addForces(const Particles<Real>& p, PairPasses<Real>& passes, int shares, Executor& executor, Real* drag) const {
     if (field_.empty()) return;
     executor.run(shares, [&](int share) {
       const Touching* list = touching_[static_cast<std::size_t>(share)].data();
-      for (std::uint32_t k = 0; k < counts_[static_cast<std::size_t>(share)].touching; ++k) addForce(list[k], p, passes);
+      for (std::uint32_t k = 0; k < counts_[static_cast<std::size_t>(share)].touching; ++k) addForce(list[k], p, passes, drag);
     });
   }
 
@@ -131,7 +132,7 @@ class WallEffects {
     }
   }
 
-  void addForce(const Touching& entry, const Particles<Real>& p, PairPasses<Real>& passes) const {
+  void addForce(const Touching& entry, const Particles<Real>& p, PairPasses<Real>& passes, Real* drag_rates) const {
     const std::uint32_t i = entry.particle;
     const Real density = passes.density()[i];
     const Real pressure = constants_.pressure ? passes.pressureAt(density) : Real(0);
@@ -140,6 +141,10 @@ class WallEffects {
     if (constants_.viscosity_factor > Real(0)) {
       const Real viscosity = p.inverse_viscosity.empty() ? constants_.viscosity : Real(1) / p.inverse_viscosity[i];
       drag = constants_.viscosity_factor * viscosity / density * entry.wall.friction;
+    }
+    if (drag_rates != nullptr) {
+      drag_rates[i] = drag;
+      drag = Real(0);
     }
     Real* a = passes.acceleration() + std::size_t{i} * 4;
     const Real v[3] = {p.vx[i], p.vy[i], p.vz[i]};

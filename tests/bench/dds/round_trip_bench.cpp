@@ -5,14 +5,13 @@
 #include <spawn.h>
 #include <string>
 #include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 #include "service/transport/reader.h"
 #include "service/transport/uuid.h"
 #include "service/transport/wait_set.h"
 #include "service/transport/writer.h"
-
-extern char** environ;
 
 namespace {
 

@@ -23,14 +23,14 @@ class BleedctlBleeddTest : public testing::Test {
     ASSERT_NE(daemon_, nullptr);
   }
 
-  static Finished bleedctl(std::vector<std::string> arguments, bool with_stderr = true) {
+  static test::Finished bleedctl(std::vector<std::string> arguments, bool with_stderr = true) {
     arguments.insert(arguments.begin(), {BLEEDCTL_PATH, "--domain", std::to_string(kDomain), "--timeout", "60"});
-    return runProcess(arguments, with_stderr);
+    return test::runProcess(arguments, with_stderr);
   }
   /// Runs a command that has to succeed and reads what it prints.
   static Json json(std::vector<std::string> arguments) {
     arguments.emplace_back("--json");
-    const Finished finished = bleedctl(std::move(arguments), false);
+    const test::Finished finished = bleedctl(std::move(arguments), false);
     EXPECT_EQ(finished.code, 0) << finished.output;
     return parseJson(finished.output);
   }
@@ -46,7 +46,7 @@ class BleedctlBleeddTest : public testing::Test {
   }
   /// The session's status as soon as it fulfils the condition.
   client::SessionStatus eventually(const std::function<bool(const client::SessionStatus&)>& condition) {
-    const auto status = daemon_->session().waitStatus(condition, kPatience);
+    const auto status = daemon_->session().waitStatus(condition, test::kPatience);
     EXPECT_TRUE(status.ok()) << status.status().message();
     return status.ok() ? *status : client::SessionStatus{};
   }
@@ -70,7 +70,7 @@ TEST_F(BleedctlBleeddTest, ListStatusAndWatchShowTheSession) {
   EXPECT_GE(number(member(status, "counters"), "requests"), 0.0);
   EXPECT_THAT(bleedctl({"status", "--session", "theatre"}).output, HasSubstr("round_wound"));
 
-  const Finished watched = bleedctl({"watch", "--count", "3", "--json"}, false);
+  const test::Finished watched = bleedctl({"watch", "--count", "3", "--json"}, false);
   ASSERT_EQ(watched.code, 0) << watched.output;
   std::istringstream lines{watched.output};
   double seq = 0.0;
@@ -96,28 +96,28 @@ TEST_F(BleedctlBleeddTest, WoundsAreAddedMovedChangedAndRemoved) {
   EXPECT_EQ(text(json({"wound", "move", id, "--at", "-0.02,0.01,0"}), "code"), "accepted");
   EXPECT_EQ(text(json({"wound", "set", id, "--flow-ml-per-s", "0.5"}), "code"), "accepted");
   EXPECT_EQ(text(json({"wound", "set", id, "--pressure-mmhg", "0.3", "--name", "vein"}), "code"), "accepted");
-  const Finished removed = bleedctl({"wound", "remove", id});
+  const test::Finished removed = bleedctl({"wound", "remove", id});
   EXPECT_EQ(removed.code, 0);
   EXPECT_THAT(removed.output, HasSubstr("wound 2"));
   eventually([](const client::SessionStatus& status) { return status.wounds == 1; });
 }
 
 TEST_F(BleedctlBleeddTest, ARefusalHasCodeOneAndLeavesTheSessionAsItWas) {
-  const Finished unknown = bleedctl({"wound", "remove", "99"});
+  const test::Finished unknown = bleedctl({"wound", "remove", "99"});
   EXPECT_EQ(unknown.code, 1);
   EXPECT_THAT(unknown.output, HasSubstr("99"));
-  const Finished as_json = bleedctl({"wound", "move", "99", "--at", "0,0,0", "--json"}, false);
+  const test::Finished as_json = bleedctl({"wound", "move", "99", "--at", "0,0,0", "--json"}, false);
   EXPECT_EQ(as_json.code, 1);
   EXPECT_EQ(text(parseJson(as_json.output), "code"), "not found");
   EXPECT_FALSE(member(parseJson(as_json.output), "accepted").bool_value());
 
-  const Finished outside = bleedctl({"wound", "add", "--at", "5,0,0", "--radius-mm", "2", "--flow-ml-per-s", "1"});
+  const test::Finished outside = bleedctl({"wound", "add", "--at", "5,0,0", "--radius-mm", "2", "--flow-ml-per-s", "1"});
   EXPECT_EQ(outside.code, 1);
   EXPECT_THAT(outside.output, HasSubstr("domain"));
-  const Finished stepped = bleedctl({"step", "5"});
+  const test::Finished stepped = bleedctl({"step", "5"});
   EXPECT_EQ(stepped.code, 1);
   EXPECT_THAT(stepped.output, HasSubstr("pause"));
-  const Finished too_fast = bleedctl({"pace", "1e9"});
+  const test::Finished too_fast = bleedctl({"pace", "1e9"});
   EXPECT_EQ(too_fast.code, 1);
   const auto counted = [](const Json& status) { return number(member(status, "counters"), "requests_refused") >= 5.0; };
   const Json status = statusWhere(counted);
@@ -144,6 +144,23 @@ TEST_F(BleedctlBleeddTest, TheClockObeys) {
       "accepted");
 }
 
+TEST_F(BleedctlBleeddTest, WatchGoesOnShowingAPausedSession) {
+  EXPECT_EQ(text(json({"pause"}), "code"), "accepted");
+  const auto still = eventually([](const client::SessionStatus& s) { return s.state == client::SessionState::paused; });
+  const test::Finished watched = bleedctl({"watch", "--count", "2", "--json"}, false);
+  ASSERT_EQ(watched.code, 0) << watched.output;
+  std::istringstream lines{watched.output};
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const Json shown = parseJson(line);
+    EXPECT_EQ(text(shown, "state"), "paused");
+    EXPECT_EQ(number(shown, "step"), static_cast<double>(still.step));
+    EXPECT_EQ(number(shown, "sim_time_s"), still.sim_time_s);
+    EXPECT_EQ(number(shown, "particles"), static_cast<double>(still.particles));
+  }
+  EXPECT_EQ(count, 2);
+}
+
 TEST_F(BleedctlBleeddTest, ResetLoadAndShutdown) {
   const std::uint32_t epoch = daemon_->session().status()->epoch;
   const Json reset = json({"reset"});
@@ -154,15 +171,15 @@ TEST_F(BleedctlBleeddTest, ResetLoadAndShutdown) {
   statusWhere([](const Json& status) { return text(member(status, "scene"), "name") == "drip"; });
 
   EXPECT_EQ(bleedctl({"load", kScenes + "missing.textproto"}).code, 4);
-  const Finished folder = bleedctl({"load", kScenes});
+  const test::Finished folder = bleedctl({"load", kScenes});
   EXPECT_EQ(folder.code, 4);
   EXPECT_THAT(folder.output, HasSubstr("folder"));
-  const Finished no_scene = bleedctl({"load", SCENE_DIR "/../debian-packages.txt"});
+  const test::Finished no_scene = bleedctl({"load", SCENE_DIR "/../debian-packages.txt"});
   EXPECT_EQ(no_scene.code, 1);
   EXPECT_THAT(no_scene.output, HasSubstr("--check"));
   EXPECT_EQ(text(member(json({"status"}), "scene"), "name"), "drip");
 
-  const Finished ended = bleedctl({"shutdown"});
+  const test::Finished ended = bleedctl({"shutdown"});
   EXPECT_EQ(ended.code, 0) << ended.output;
   EXPECT_EQ(daemon_->process().wait(), 0) << daemon_->process().output();
   EXPECT_EQ(bleedctl({"status", "--timeout", "1"}).code, 3);

@@ -9,8 +9,8 @@
 #include <optional>
 #include <unistd.h>
 
-#include "tests/integration/client/child_process.h"
 #include "tests/integration/client/fake_service.h"
+#include "tests/support/child_process.h"
 
 namespace bleedsim::client_test {
 namespace {
@@ -39,7 +39,9 @@ class BleedctlTest : public testing::Test {
     arguments.insert(arguments.begin(), {BLEEDCTL_PATH, "--domain", "66"});
     return arguments;
   }
-  static Finished bleedctl(std::vector<std::string> arguments) { return runProcess(command(std::move(arguments)), true); }
+  static test::Finished bleedctl(std::vector<std::string> arguments) {
+    return test::runProcess(command(std::move(arguments)), true);
+  }
 
   std::optional<transport::Participant> participant_;
 };
@@ -47,10 +49,10 @@ class BleedctlTest : public testing::Test {
 TEST_F(BleedctlTest, ListsSessions) {
   const auto one = serve("one");
   const auto two = serve("two");
-  const Finished text = bleedctl({"list"});
+  const test::Finished text = bleedctl({"list"});
   EXPECT_EQ(text.code, 0);
   EXPECT_THAT(text.output, testing::AllOf(HasSubstr("one"), HasSubstr("two"), HasSubstr("running")));
-  const Finished json = bleedctl({"list", "--json"});
+  const test::Finished json = bleedctl({"list", "--json"});
   EXPECT_EQ(json.code, 0);
   EXPECT_EQ(json.output.front(), '[');
   EXPECT_THAT(json.output, HasSubstr(R"("session": "two")"));
@@ -58,11 +60,11 @@ TEST_F(BleedctlTest, ListsSessions) {
 
 TEST_F(BleedctlTest, ShowsStatusAndSceneWithOptionsOnEitherSide) {
   const auto service = serve("one");
-  const Finished before = bleedctl({"--session", "one", "--json", "status"});
+  const test::Finished before = bleedctl({"--session", "one", "--json", "status"});
   EXPECT_EQ(before.code, 0) << before.output;
-  const Finished after = bleedctl({"status", "--session", "one", "--json"});
+  const test::Finished after = bleedctl({"status", "--session", "one", "--json"});
   EXPECT_EQ(after.code, 0) << after.output;
-  for (const Finished& finished : {before, after}) {
+  for (const test::Finished& finished : {before, after}) {
     EXPECT_THAT(finished.output, HasSubstr(R"("state": "running")"));
     EXPECT_THAT(finished.output, HasSubstr(R"("name": "round_wound")"));
   }
@@ -70,7 +72,7 @@ TEST_F(BleedctlTest, ShowsStatusAndSceneWithOptionsOnEitherSide) {
 
 TEST_F(BleedctlTest, AMissingSessionHasCodeThreeAndNamesTheOthers) {
   const auto service = serve("one");
-  const Finished finished = bleedctl({"pause", "--session", "other", "--timeout", "1"});
+  const test::Finished finished = bleedctl({"pause", "--session", "other", "--timeout", "1"});
   EXPECT_EQ(finished.code, 3);
   EXPECT_THAT(finished.output, testing::AllOf(HasSubstr("'other'"), HasSubstr("one")));
 }
@@ -88,7 +90,7 @@ TEST_F(BleedctlTest, SendsEveryCommandAndPrintsTheAnswer) {
   });
   const std::string scene = fmt::format("{}/bleedctl_{}.textproto", testing::TempDir(), getpid());
   std::ofstream{scene} << "name: \"x\"\n";
-  const Finished added =
+  const test::Finished added =
       bleedctl({"wound", "add", "--at", "-0.01,0,0", "--radius-mm", "2", "--flow-ml-per-s", "1.5", "--normal", "0,0,1"});
   EXPECT_EQ(added.code, 0) << added.output;
   EXPECT_THAT(added.output, testing::AllOf(HasSubstr("wound 7"), HasSubstr("step 55")));
@@ -103,7 +105,7 @@ TEST_F(BleedctlTest, SendsEveryCommandAndPrintsTheAnswer) {
            {"step", "10"},
            {"pace", "0.5"},
            {"load", scene}}) {
-    const Finished finished = bleedctl(arguments);
+    const test::Finished finished = bleedctl(arguments);
     EXPECT_EQ(finished.code, 0) << arguments.front() << ": " << finished.output;
   }
   std::filesystem::remove(scene);
@@ -116,7 +118,7 @@ TEST_F(BleedctlTest, ARefusalHasCodeOneAndItsReason) {
     std::string{"wound 99 is unknown"}.copy(reply.reason, sizeof reply.reason - 1);
     return true;
   });
-  const Finished finished = bleedctl({"wound", "remove", "99"});
+  const test::Finished finished = bleedctl({"wound", "remove", "99"});
   EXPECT_EQ(finished.code, 1);
   EXPECT_THAT(finished.output, HasSubstr("wound 99 is unknown"));
 }
@@ -128,32 +130,59 @@ TEST_F(BleedctlTest, ASilentSessionHasCodeThree) {
 
 TEST_F(BleedctlTest, WatchPrintsFiguresUntilItIsInterrupted) {
   const auto service = serve("one");
-  ChildProcess watch{command({"watch", "--json"})};
+  test::ChildProcess watch{command({"watch", "--json"}), false};
   ASSERT_TRUE(service->waitFrameReaders(1));
   ASSERT_TRUE(service->publishFrame(4).ok());
-  const auto line = watch.readLine();
+  auto line = watch.readLine();
+  // A busy machine may take so long to bring the frame that the state is shown first.
+  while (line && line->find("\"seq\"") == std::string::npos) line = watch.readLine();
   ASSERT_TRUE(line.has_value());
   EXPECT_THAT(*line, testing::AllOf(HasSubstr(R"("seq": 4)"), HasSubstr(R"("ml_emitted": 2)"), HasSubstr(R"("gaps": 0)")));
   watch.signal(SIGINT);
   EXPECT_EQ(watch.wait(), 0);
 }
 
+TEST_F(BleedctlTest, WatchShowsTheStateWhereThereAreNoStatistics) {
+  const auto service = serve("one");
+  service->publishStatus(bleed_v1_STATE_PAUSED);
+  test::ChildProcess watch{command({"watch", "--json"}), false};
+  const auto paused = watch.readLine();
+  ASSERT_TRUE(paused.has_value());
+  EXPECT_THAT(*paused, testing::AllOf(HasSubstr(R"("state": "paused")"), HasSubstr(R"("step": 0)"),
+                                      HasSubstr(R"("particles": 0)"), testing::Not(HasSubstr("seq"))));
+  service->publishStatus(bleed_v1_STATE_LOADING);
+  const auto loading = watch.readLine();
+  ASSERT_TRUE(loading.has_value());
+  EXPECT_THAT(*loading, HasSubstr(R"("state": "loading")"));
+  ASSERT_TRUE(service->publishFrame(7).ok());
+  const auto figures = watch.readLine();
+  ASSERT_TRUE(figures.has_value());
+  EXPECT_THAT(*figures, HasSubstr(R"("seq": 7)"));
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 0);
+
+  service->publishStatus(bleed_v1_STATE_PAUSED);
+  const test::Finished text = bleedctl({"watch", "--count", "1"});
+  EXPECT_EQ(text.code, 0);
+  EXPECT_THAT(text.output, testing::AllOf(HasSubstr("paused"), HasSubstr("step 0"), HasSubstr("no new frames")));
+}
+
 TEST_F(BleedctlTest, ShutdownWaitsUntilTheSessionIsGone) {
   auto service = serve("one");
-  ChildProcess shutdown{command({"shutdown"})};
+  test::ChildProcess shutdown{command({"shutdown"})};
   ASSERT_TRUE(service->waitRequests(1));
   service->publishStatus(bleed_v1_STATE_STOPPED);
   EXPECT_EQ(shutdown.wait(), 0) << shutdown.output();
 }
 
 TEST_F(BleedctlTest, WrongUseHasCodeTwoAndAHint) {
-  const Finished flag = bleedctl({"wound", "add", "--att", "0,0,0"});
+  const test::Finished flag = bleedctl({"wound", "add", "--att", "0,0,0"});
   EXPECT_EQ(flag.code, 2);
   EXPECT_THAT(flag.output, HasSubstr("bleedctl wound add --help"));
-  const Finished none = bleedctl({});
+  const test::Finished none = bleedctl({});
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.output, testing::AllOf(HasSubstr("which command?"), HasSubstr("record"), HasSubstr("shutdown")));
-  const Finished unknown = bleedctl({"wound", "open"});
+  const test::Finished unknown = bleedctl({"wound", "open"});
   EXPECT_EQ(unknown.code, 2);
   EXPECT_THAT(unknown.output, testing::AllOf(HasSubstr("no command 'open'"), HasSubstr("add, move, set, remove")));
 }

@@ -7,7 +7,6 @@ namespace bleedsim::client_test {
 
 using transport::Reader;
 using transport::Sample;
-using transport::Topic;
 using transport::Writer;
 
 struct FakeService::Endpoints {

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <unistd.h>
 
-#include "tests/integration/client/child_process.h"
 #include "tests/integration/client/running_daemon.h"
+#include "tests/support/child_process.h"
 
 namespace bleedsim::client_test {
 namespace {
@@ -24,8 +24,8 @@ class InstalledFrontEndTest : public testing::Test {
     root_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_installed_{}", getpid());
     fs::create_directories(root_);
     for (const char* component : {"client", "programs"}) {
-      const Finished installed =
-          runProcess({CMAKE_PATH, "--install", BLEEDSIM_BUILD_DIR, "--prefix", prefix(), "--component", component}, true);
+      const test::Finished installed =
+          test::runProcess({CMAKE_PATH, "--install", BLEEDSIM_BUILD_DIR, "--prefix", prefix(), "--component", component}, true);
       ASSERT_EQ(installed.code, 0) << installed.output;
     }
   }
@@ -43,19 +43,19 @@ std::string textOf(const fs::path& path) {
 }
 
 TEST_F(InstalledFrontEndTest, TheExampleBuildsAgainstTheInstalledPackageAndTrainsInARunningSession) {
-  const Finished configured =
-      runProcess({CMAKE_PATH, "-S", FRONT_END_SOURCE_DIR, "-B", build(), "-G", CMAKE_GENERATOR_NAME, "-DCMAKE_BUILD_TYPE=Release",
-                  "-DCMAKE_PREFIX_PATH=" + prefix(), "-DCMAKE_CXX_COMPILER=" CMAKE_CXX_COMPILER_PATH,
-                  "-DCMAKE_CXX_FLAGS=" FRONT_END_CXX_FLAGS, "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF"},
-                 true);
+  const test::Finished configured = test::runProcess(
+      {CMAKE_PATH, "-S", FRONT_END_SOURCE_DIR, "-B", build(), "-G", CMAKE_GENERATOR_NAME, "-DCMAKE_BUILD_TYPE=Release",
+       "-DCMAKE_PREFIX_PATH=" + prefix(), "-DCMAKE_CXX_COMPILER=" CMAKE_CXX_COMPILER_PATH,
+       "-DCMAKE_CXX_FLAGS=" FRONT_END_CXX_FLAGS, "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF"},
+      true);
   ASSERT_EQ(configured.code, 0) << configured.output;
-  const Finished built = runProcess({CMAKE_PATH, "--build", build()}, true);
+  const test::Finished built = test::runProcess({CMAKE_PATH, "--build", build()}, true);
   ASSERT_EQ(built.code, 0) << built.output;
 
   const auto daemon =
       RunningDaemon::start(prefix() + "/bin/bleedd", prefix() + "/share/bleedsim/scenes/round_wound.textproto", "training", 67);
   ASSERT_NE(daemon, nullptr);
-  const Finished front_end = runProcess({build() + "/front_end", "training", "67"}, true);
+  const test::Finished front_end = test::runProcess({build() + "/front_end", "training", "67"}, true);
   EXPECT_EQ(front_end.code, 0) << front_end.output;
   EXPECT_THAT(front_end.output, testing::AllOf(HasSubstr("round trip"), HasSubstr(" particles, highest "),
                                                testing::ContainsRegex("done: [0-9]+ frames, [0-9]+ gaps")));

@@ -51,11 +51,11 @@ class RecordingCommandsTest : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  static Finished bleedctl(std::vector<std::string> arguments, bool with_stderr = true) {
-    return runProcess(command(std::move(arguments)), with_stderr);
+  static test::Finished bleedctl(std::vector<std::string> arguments, bool with_stderr = true) {
+    return test::runProcess(command(std::move(arguments)), with_stderr);
   }
   static Json info(const std::string& file) {
-    const Finished finished = bleedctl({"info", file, "--json"}, false);
+    const test::Finished finished = bleedctl({"info", file, "--json"}, false);
     EXPECT_EQ(finished.code, 0) << finished.output;
     return parseJson(finished.output);
   }
@@ -74,7 +74,8 @@ class FrameCollector {
       const std::lock_guard lock{mutex_};
       frames_[frame->header().seq] = frame;
     };
-    auto session = client->open(name, {.delivery = client::Delivery::queue, .queue_length = 256, .on_frame = keep}, kPatience);
+    auto session =
+        client->open(name, {.delivery = client::Delivery::queue, .queue_length = 256, .on_frame = keep}, test::kPatience);
     if (!session) return false;
     session_.emplace(std::move(*session));
     return true;
@@ -104,7 +105,7 @@ TEST_F(RecordingCommandsTest, WhatWasRecordedIsDescribedExportedAndReadBackEqual
   FrameCollector collector;
   ASSERT_TRUE(collector.start("theatre"));
   const std::string file = path("a.mcap");
-  const Finished recorded = bleedctl({"record", "-o", file, "--duration", "1.5", "--json"}, false);
+  const test::Finished recorded = bleedctl({"record", "-o", file, "--duration", "1.5", "--json"}, false);
   ASSERT_EQ(recorded.code, 0) << recorded.output;
   const auto seen = collector.finish();
 
@@ -156,7 +157,7 @@ TEST_F(RecordingCommandsTest, WhatWasRecordedIsDescribedExportedAndReadBackEqual
 TEST_F(RecordingCommandsTest, AnInterruptClosesTheFileProperly) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const std::string file = path("interrupted.mcap");
-    ChildProcess record{command({"record", "-o", file}), true};
+    test::ChildProcess record{command({"record", "-o", file}), true};
     const auto started = record.readLine();
     ASSERT_TRUE(started.has_value());
     EXPECT_THAT(*started, HasSubstr("recording session 'theatre'"));
@@ -186,7 +187,7 @@ TEST_F(RecordingCommandsTest, FramesAndRateLimitWhatIsRecorded) {
 
 TEST_F(RecordingCommandsTest, ASessionThatEndsLeavesACompleteFileAndCodeThree) {
   const std::string file = path("ended.mcap");
-  ChildProcess record{command({"record", "-o", file, "--duration", "1000"}), true};
+  test::ChildProcess record{command({"record", "-o", file, "--duration", "1000"}), true};
   ASSERT_TRUE(record.readLine().has_value());
   ASSERT_EQ(bleedctl({"shutdown"}).code, 0);
   EXPECT_EQ(record.wait(), 3);
@@ -211,7 +212,7 @@ TEST_F(RecordingCommandsTest, DamagedFilesAreNamedAndReadAsFarAsTheyGo) {
   for (const char* name : {"other.mcap", "empty.mcap", "missing.mcap"}) {
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"info", path(name)}, std::vector<std::string>{"export", path(name), "-o", path("vtk")}}) {
-      const Finished finished = bleedctl(arguments);
+      const test::Finished finished = bleedctl(arguments);
       EXPECT_EQ(finished.code, 4) << arguments.front() << " " << name << ": " << finished.output;
       EXPECT_THAT(finished.output, HasSubstr(name));
     }
@@ -219,7 +220,7 @@ TEST_F(RecordingCommandsTest, DamagedFilesAreNamedAndReadAsFarAsTheyGo) {
   std::string flipped = whole;
   flipped[flipped.size() / 3] = static_cast<char>(flipped[flipped.size() / 3] ^ 0x5a);
   write(path("flipped.mcap"), flipped);
-  const Finished damaged = bleedctl({"info", path("flipped.mcap")});
+  const test::Finished damaged = bleedctl({"info", path("flipped.mcap")});
   EXPECT_EQ(damaged.code, 4) << damaged.output;
   EXPECT_THAT(damaged.output, HasSubstr("flipped.mcap"));
   EXPECT_EQ(bleedctl({"record", "-o", path("no/such/folder.mcap")}).code, 4);

@@ -23,7 +23,7 @@ std::unique_ptr<RunningDaemon> RunningDaemon::start(const std::string& program, 
     return nullptr;
   }
   daemon->client_.emplace(std::move(*here));
-  Result<client::Session> open = daemon->client_->open(session, {.delivery = client::Delivery::none}, kPatience);
+  Result<client::Session> open = daemon->client_->open(session, {.delivery = client::Delivery::none}, test::kPatience);
   if (!open) {
     daemon->process_.signal(SIGTERM);
     daemon->process_.wait();
@@ -32,7 +32,7 @@ std::unique_ptr<RunningDaemon> RunningDaemon::start(const std::string& program, 
   }
   daemon->session_.emplace(std::move(*open));
   const auto runs = [](const client::SessionStatus& status) { return status.state == client::SessionState::running; };
-  const Result<client::SessionStatus> running = daemon->session_->waitStatus(runs, kPatience);
+  const Result<client::SessionStatus> running = daemon->session_->waitStatus(runs, test::kPatience);
   EXPECT_TRUE(running.ok()) << running.status().message();
   return running.ok() ? std::move(daemon) : nullptr;
 }

@@ -6,12 +6,9 @@
 #include <string>
 
 #include "bleedsim/client.h"
-#include "tests/integration/client/child_process.h"
+#include "tests/support/child_process.h"
 
 namespace bleedsim::client_test {
-
-/// Long enough for a machine that is busy with other tests.
-inline constexpr std::chrono::seconds kPatience{60};
 
 /// Puts this process and its children under a DDS tag of their own, so that tests side by side do not meet.
 void isolate();
@@ -24,12 +21,12 @@ class RunningDaemon {
 
   /// The session as a client of this process sees it.
   client::Session& session() { return *session_; }
-  ChildProcess& process() { return process_; }
+  test::ChildProcess& process() { return process_; }
 
  private:
   explicit RunningDaemon(const std::vector<std::string>& command) : process_{command, true} {}
 
-  ChildProcess process_;
+  test::ChildProcess process_;
   std::optional<client::Client> client_;
   std::optional<client::Session> session_;
 };

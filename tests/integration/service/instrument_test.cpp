@@ -18,7 +18,7 @@ void pushUntilApplied(Probe& probe) {
 }
 
 TEST_F(ServiceTest, ASilentInstrumentsForceEnds) {
-  Child daemon{daemonCommand("silent")};
+  test::ChildProcess daemon{daemonCommand("silent")};
   Probe probe{domain(), "silent"};
   probe.frame([](const FrameHead& frame) { return frame.count > 5; });
   pushUntilApplied(probe);
@@ -28,7 +28,7 @@ TEST_F(ServiceTest, ASilentInstrumentsForceEnds) {
 
 TEST_F(ServiceTest, TheForceOfAnInstrumentEndsWithItsWriter) {
   std::ofstream{sceneFile()} << smallScene(10.0);  // far longer than it takes to notice
-  Child daemon{daemonCommand("gone")};
+  test::ChildProcess daemon{daemonCommand("gone")};
   Probe probe{domain(), "gone"};
   probe.frame([](const FrameHead& frame) { return frame.count > 5; });
   pushUntilApplied(probe);

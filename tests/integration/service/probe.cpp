@@ -98,14 +98,14 @@ template <class T>
 bool Probe::next(Reader<T>& reader, const std::function<bool(const T&)>& use) {
   auto wait_set = need(transport::WaitSet::create(participant_));
   if (!wait_set.attach(reader, 0)) return false;
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + test::kPatience;
   while (std::chrono::steady_clock::now() < end) {
     bool found = false;
     const auto look = [&](const transport::Sample<T>& sample) { found = sample.data != nullptr && use(*sample.data); };
     const auto taken = reader.take(look, 1);
     if (found) return true;
     if (!taken) return false;
-    if (*taken == 0 && !wait_set.wait(kPatience)) return false;
+    if (*taken == 0 && !wait_set.wait(test::kPatience)) return false;
   }
   return false;
 }
@@ -120,7 +120,7 @@ bleed_v1_Reply Probe::askAs(std::uint64_t seq, const bleed_v1_RequestBody& body)
   request.body = body;
   auto wait_set = need(transport::WaitSet::create(participant_));
   EXPECT_TRUE(wait_set.attach(replies_, 0).ok());
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + test::kPatience;
   while (std::chrono::steady_clock::now() < end) {
     EXPECT_TRUE(requests_.write(request).ok());
     const auto resend_at = std::chrono::steady_clock::now() + kResend;

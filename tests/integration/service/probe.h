@@ -10,7 +10,7 @@
 #include "service/transport/clock.h"
 #include "service/transport/uuid.h"
 #include "service/transport/wait_set.h"
-#include "tests/integration/service/child.h"
+#include "tests/support/child_process.h"
 
 namespace bleedsim::service_test {
 

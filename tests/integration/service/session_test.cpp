@@ -13,10 +13,10 @@ namespace {
 using testing::HasSubstr;
 
 TEST_F(ServiceTest, ASecondDaemonOfTheSameSessionRefusesToStart) {
-  Child first{daemonCommand("one")};
+  test::ChildProcess first{daemonCommand("one")};
   Probe probe{domain(), "one"};
   probe.status();
-  Child second{daemonCommand("one")};
+  test::ChildProcess second{daemonCommand("one")};
   EXPECT_EQ(second.wait(), 3);
   EXPECT_THAT(second.output(), testing::AllOf(HasSubstr("session 'one'"), HasSubstr(std::to_string(first.pid()))));
   const std::uint64_t step = probe.frame().step;
@@ -24,12 +24,12 @@ TEST_F(ServiceTest, ASecondDaemonOfTheSameSessionRefusesToStart) {
 }
 
 TEST_F(ServiceTest, OfTwoDaemonsThatStartTogetherExactlyOneStays) {
-  Child left{daemonCommand("both")};
-  Child right{daemonCommand("both")};
+  test::ChildProcess left{daemonCommand("both")};
+  test::ChildProcess right{daemonCommand("both")};
   std::array<pollfd, 2> ends{{{left.endDescriptor(), POLLIN, 0}, {right.endDescriptor(), POLLIN, 0}}};
   ASSERT_GT(poll(ends.data(), ends.size(), 60'000), 0) << "both stayed";
-  Child& loser = ends[0].revents != 0 ? left : right;
-  Child& winner = ends[0].revents != 0 ? right : left;
+  test::ChildProcess& loser = ends[0].revents != 0 ? left : right;
+  test::ChildProcess& winner = ends[0].revents != 0 ? right : left;
   EXPECT_EQ(loser.wait(), 3);
   Probe probe{domain(), "both"};
   const StatusHead status = probe.status([](const StatusHead& head) { return head.heartbeat > 12; });
@@ -40,10 +40,10 @@ TEST_F(ServiceTest, OfTwoDaemonsThatStartTogetherExactlyOneStays) {
 class SignalTest : public ServiceTest, public testing::WithParamInterface<int> {};
 
 TEST_P(SignalTest, EndsTheDaemonCleanly) {
-  Child daemon{daemonCommand("end")};
+  test::ChildProcess daemon{daemonCommand("end")};
   Probe probe{domain(), "end"};
   probe.frame();
-  daemon.send(GetParam());
+  daemon.signal(GetParam());
   EXPECT_EQ(daemon.wait(), 0);
   probe.status([](const StatusHead& status) { return status.state == bleed_v1_STATE_STOPPED; });
 }
@@ -51,38 +51,38 @@ TEST_P(SignalTest, EndsTheDaemonCleanly) {
 INSTANTIATE_TEST_SUITE_P(Signals, SignalTest, testing::Values(SIGINT, SIGTERM));
 
 TEST_F(ServiceTest, AShutdownRequestIsAnsweredAndEndsTheDaemon) {
-  Child daemon{daemonCommand("down")};
+  test::ChildProcess daemon{daemonCommand("down")};
   Probe probe{domain(), "down"};
   EXPECT_EQ(probe.ask(bleed_v1_REQUEST_SHUTDOWN).code, static_cast<std::uint32_t>(bleed_v1_REPLY_ACCEPTED));
   EXPECT_EQ(daemon.wait(), 0);
 }
 
 TEST_F(ServiceTest, EndsAfterItsDuration) {
-  Child daemon{daemonCommand("short", {"--pace", "max", "--duration", "0.2"})};
+  test::ChildProcess daemon{daemonCommand("short", {"--pace", "max", "--duration", "0.2"})};
   EXPECT_EQ(daemon.wait(), 0);
 }
 
 TEST_F(ServiceTest, AMissingInterfaceIsNamedWithTheExistingOnes) {
-  Child daemon{daemonCommand("none", {"--interface", "nosuch9"})};
+  test::ChildProcess daemon{daemonCommand("none", {"--interface", "nosuch9"})};
   EXPECT_EQ(daemon.wait(), 1);
   EXPECT_THAT(daemon.output(), testing::AllOf(HasSubstr("nosuch9"), HasSubstr("lo")));
 }
 
 TEST_F(ServiceTest, ABrokenSceneIsAUsageError) {
   std::ofstream{sceneFile()} << "name: 'broken' wounds { flow_ml_per_s: nan }";
-  Child daemon{daemonCommand("broken")};
+  test::ChildProcess daemon{daemonCommand("broken")};
   EXPECT_EQ(daemon.wait(), 2);
   EXPECT_THAT(daemon.output(), HasSubstr("flow_ml_per_s"));
 }
 
 TEST_F(ServiceTest, ChecksASceneWithoutRunningIt) {
-  Child daemon{daemonCommand("check", {"--check"})};
+  test::ChildProcess daemon{daemonCommand("check", {"--check"})};
   EXPECT_EQ(daemon.wait(), 0);
   EXPECT_THAT(daemon.output(), HasSubstr("valid"));
 }
 
 TEST_F(ServiceTest, ListsTheEffectsOfAScene) {
-  Child daemon{daemonCommand("list", {"--list-effects"})};
+  test::ChildProcess daemon{daemonCommand("list", {"--list-effects"})};
   EXPECT_EQ(daemon.wait(), 0);
   EXPECT_THAT(daemon.output(), testing::AllOf(HasSubstr("viscosity"), HasSubstr("on ")));
 }

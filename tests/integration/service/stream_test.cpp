@@ -7,7 +7,7 @@ namespace bleedsim::service_test {
 namespace {
 
 TEST_F(ServiceTest, ALateJoinerGetsSceneAndStatusAtOnce) {
-  Child daemon{daemonCommand("late")};
+  test::ChildProcess daemon{daemonCommand("late")};
   {
     Probe early{domain(), "late"};
     early.frame([](const FrameHead& frame) { return frame.seq > 20; });
@@ -23,7 +23,7 @@ TEST_F(ServiceTest, ALateJoinerGetsSceneAndStatusAtOnce) {
 
 TEST_F(ServiceTest, AReliableSubscriberGetsEveryFrame) {
   Probe probe{domain(), "every"};
-  Child daemon{daemonCommand("every", {"--frame-rate", "100"})};
+  test::ChildProcess daemon{daemonCommand("every", {"--frame-rate", "100"})};
   const FrameHead first = probe.frame();
   std::uint64_t expected = first.seq;
   std::uint64_t step = first.step;
@@ -41,7 +41,7 @@ TEST_F(ServiceTest, AReliableSubscriberGetsEveryFrame) {
 
 TEST_F(ServiceTest, AReaderThatIsTooSlowSeesGapsInTheNumbers) {
   Probe slow{domain(), "slow", Reading::live};
-  Child daemon{daemonCommand("slow", {"--frame-rate", "100"})};
+  test::ChildProcess daemon{daemonCommand("slow", {"--frame-rate", "100"})};
   std::uint64_t last = slow.frame().seq;
   std::uint64_t received = 1;
   std::uint64_t gaps = 0;
@@ -58,8 +58,8 @@ TEST_F(ServiceTest, AReaderThatIsTooSlowSeesGapsInTheNumbers) {
 }
 
 TEST_F(ServiceTest, TwoSessionsOfOneDomainDoNotMix) {
-  Child daemon_a{daemonCommand("a")};
-  Child daemon_b{daemonCommand("b")};
+  test::ChildProcess daemon_a{daemonCommand("a")};
+  test::ChildProcess daemon_b{daemonCommand("b")};
   Probe a{domain(), "a"};
   Probe b{domain(), "b"};
   const StatusHead status_a = a.status();
@@ -78,15 +78,15 @@ TEST_F(ServiceTest, TwoSessionsOfOneDomainDoNotMix) {
 }
 
 TEST_F(ServiceTest, AStoppedOrKilledSubscriberHoldsNobodyUp) {
-  Child daemon{daemonCommand("held")};
-  Child stopped{{BLEEDSIM_SUBSCRIBER, std::to_string(domain()), "held"}};
-  Child killed{{BLEEDSIM_SUBSCRIBER, std::to_string(domain()), "held"}};
+  test::ChildProcess daemon{daemonCommand("held")};
+  test::ChildProcess stopped{{BLEEDSIM_SUBSCRIBER, std::to_string(domain()), "held"}};
+  test::ChildProcess killed{{BLEEDSIM_SUBSCRIBER, std::to_string(domain()), "held"}};
   ASSERT_TRUE(stopped.waitForOutput("reading"));
   ASSERT_TRUE(killed.waitForOutput("reading"));
   Probe healthy{domain(), "held"};
   std::uint64_t expected = healthy.frame().seq;
-  stopped.send(SIGSTOP);
-  killed.send(SIGKILL);
+  stopped.signal(SIGSTOP);
+  killed.signal(SIGKILL);
   const std::uint64_t step = healthy.frame().step;
   ++expected;
   for (int i = 0; i < 240; ++i) ASSERT_EQ(healthy.frame().seq, ++expected);

@@ -55,7 +55,7 @@ double energyOf(const sph::World& world) {
   for (std::size_t i = 0; i < frame.count; ++i) {
     const sph::Vec3 at = positionOf(frame, i);
     sum += 0.5 * velocityOf(frame, i).squaredNorm() - gravity.dot(at);
-    const double ratio = double{frame.density[i]} / free_density;
+    const double ratio = static_cast<double>(frame.density[i]) / free_density;
     if (scene.effects.pressure && ratio > 1.0) sum += c2 * (std::log(ratio) + 1.0 / ratio - 1.0);
     for (const sph::TissueShape& wall : springs) {
       const double depth = std::max(0.0, 0.5 - sph::signedDistance(wall, at).value / scene.spacing);

@@ -122,9 +122,8 @@ struct Golden {
   std::uint64_t hash;
 };
 
-void PrintTo(const Golden& one, std::ostream* out) {
-  *out << sph::simdTargetName(one.target);
-}  // NOLINT: the name is GoogleTest's
+// NOLINTNEXTLINE(readability-identifier-naming): the name is GoogleTest's
+void PrintTo(const Golden& one, std::ostream* out) { *out << sph::simdTargetName(one.target); }
 
 // One build, one target, one state. AVX2 and AVX-512 agree because sums run over eight lanes on both; no promise says so. Renew a
 // hash only with a change that is meant to alter results: run this test and copy the value that it prints. The hashes are of GCC

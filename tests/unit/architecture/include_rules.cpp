@@ -15,10 +15,10 @@ struct LibraryRule {
 
 // A library that a layer needs newly is a decision about the architecture: it is taken here.
 const std::vector<LibraryRule>& libraryRules() {
-  static const std::vector<LibraryRule> rules{
+  static const std::vector<LibraryRule> kRules{
       {"hwy/", {"sph"}},
       {"tbb/", {"sph"}},
-      {"Eigen/", {"sph", "scene", "dds", "daemon"}},
+      {"Eigen/", {"sph", "scene", "dds", "daemon", "picture"}},
       // recording converts IDL samples, whose sequences and strings ddsc allocates; it opens no entity.
       {"dds/", {"transport", "recording"}},
       {"google/protobuf/", {"scene", "recording"}},
@@ -27,10 +27,11 @@ const std::vector<LibraryRule>& libraryRules() {
       {"fmt/", {"scene", "transport", "dds", "recording", "daemon", "client"}},
       {"zstd", {"recording"}},
       {"zlib", {"recording", "client"}},
+      {"png", {"picture"}},
       {"net/", {"transport"}},
-      {"sys/", {"transport", "daemon", "recording", "client"}},
+      {"sys/", {"transport", "daemon", "recording", "client", "picture"}},
   };
-  return rules;
+  return kRules;
 }
 
 constexpr std::string_view kPublicHeaders = "clients/lib/include/";
@@ -51,15 +52,15 @@ std::string layerOfTarget(std::string_view target) { return target.starts_with("
 }  // namespace
 
 std::optional<Include> parseInclude(std::string_view line) {
-  const auto skipBlanks = [&line] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
-  skipBlanks();
+  const auto skip_blanks = [&line] { line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size())); };
+  skip_blanks();
   if (!line.starts_with('#')) return std::nullopt;
   line.remove_prefix(1);
-  skipBlanks();
+  skip_blanks();
   constexpr std::string_view kWord = "include";
   if (!line.starts_with(kWord)) return std::nullopt;
   line.remove_prefix(kWord.size());
-  skipBlanks();
+  skip_blanks();
   if (line.empty() || (line.front() != '"' && line.front() != '<')) return std::nullopt;
   const bool quoted = line.front() == '"';
   line.remove_prefix(1);

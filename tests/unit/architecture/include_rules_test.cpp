@@ -73,6 +73,9 @@ TEST(IncludeRules, refuseWhatIsForbidden) {
   EXPECT_THAT(problem("service/sph/wound/throat.cpp", "#include <google/protobuf/message.h>"), HasSubstr("must not use"));
   EXPECT_THAT(problem("service/sph/world.cpp", "#include <fmt/core.h>"), HasSubstr("must not use fmt/"));
   EXPECT_THAT(problem("service/scene/scene.h", "#include \"service/transport/qos.h\""), HasSubstr("layer 'transport'"));
+  EXPECT_THAT(problem("service/picture/splat.cpp", "#include \"service/sph/world.h\""), HasSubstr("layer 'sph'"));
+  EXPECT_THAT(problem("service/picture/splat.cpp", "#include <google/protobuf/message.h>"), HasSubstr("must not use"));
+  EXPECT_THAT(problem("service/daemon/program.cpp", "#include <png.h>"), HasSubstr("must not use png"));
   EXPECT_THAT(problem("clients/lib/client.cpp", "#include \"service/sph/world.h\""), HasSubstr("layer 'sph'"));
   EXPECT_THAT(problem("clients/bleedctl/app.cpp", "#include \"service/daemon/options.h\""), HasSubstr("layer 'daemon'"));
   EXPECT_THAT(problem("clients/lib/include/bleedsim/frame.h", "#include \"idl/bleed.h\""), HasSubstr("public header"));

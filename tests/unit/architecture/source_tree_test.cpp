@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kMostLines = 500;
 
 const std::vector<std::string>& folders() {
-  static const std::vector<std::string> all{"service", "clients", "idl", "tests", "config"};
-  return all;
+  static const std::vector<std::string> kAll{"service", "clients", "idl", "tests", "config"};
+  return kAll;
 }
 
 TEST(SourceTree, topIsFixed) {

@@ -75,7 +75,7 @@ LoadedScene fakeScene(const std::string& name, std::shared_ptr<FakeLog> log) {
 }
 
 SceneFactory fakeFactory(std::shared_ptr<FakeLog> log) {
-  return [log](const SceneJob& job) -> Result<LoadedScene> {
+  return [log = std::move(log)](const SceneJob& job) -> Result<LoadedScene> {
     if (job.known) return build(job.known, log);
     if (job.text == "broken") return Status{StatusCode::invalid_argument, "domain: missing, give the box"};
     return fakeScene(job.text, log);

@@ -10,15 +10,15 @@ using std::chrono::milliseconds;
 TEST_F(SimulationTest, OnlyTheNewestSampleOfAToolActs) {
   start();
   ticks(4);
-  for (std::uint64_t number = 1; number <= 3; ++number) ASSERT_TRUE(channels.commands.tryPush(sample(number)));
+  for (std::uint64_t number = 1; number <= 3; ++number) ASSERT_TRUE(channels_.commands.tryPush(sample(number)));
   tick();
-  ASSERT_EQ(log->forces.size(), 1U);
-  EXPECT_EQ(log->forces.begin()->second.force.z(), 3.0);
+  ASSERT_EQ(log_->forces.size(), 1U);
+  EXPECT_EQ(log_->forces.begin()->second.force.z(), 3.0);
   const std::vector<dds::JournalEntry> entries = journal();
   ASSERT_EQ(entries.size(), 1U);
   EXPECT_EQ(entries[0].step, 4U);
   ticks(95);
-  const dds::FrameSnapshot* frame = channels.frames.load();
+  const dds::FrameSnapshot* frame = channels_.frames.load();
   ASSERT_NE(frame, nullptr);
   ASSERT_EQ(frame->instrument_count, 1U);
   EXPECT_EQ(frame->instruments[0].seq, 3U);
@@ -27,15 +27,15 @@ TEST_F(SimulationTest, OnlyTheNewestSampleOfAToolActs) {
 
 TEST_F(SimulationTest, ASilentToolEndsAfterItsExpiry) {
   start();
-  channels.commands.tryPush(sample(1));
+  channels_.commands.tryPush(sample(1));
   tick();
-  now += milliseconds{99};
+  now_ += milliseconds{99};
   tick();
-  EXPECT_EQ(log->forces.size(), 1U);
-  now += milliseconds{1};
+  EXPECT_EQ(log_->forces.size(), 1U);
+  now_ += milliseconds{1};
   tick();
-  EXPECT_TRUE(log->forces.empty());
-  EXPECT_EQ(channels.counters.value(ServiceCounter::instruments_ended), 1U);
+  EXPECT_TRUE(log_->forces.empty());
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_ended), 1U);
   const std::vector<dds::JournalEntry> entries = journal();
   ASSERT_EQ(entries.size(), 2U);
   EXPECT_EQ(std::get<dds::InstrumentEnded>(entries[1].input).reason, dds::InstrumentEndReason::expired);
@@ -44,25 +44,25 @@ TEST_F(SimulationTest, ASilentToolEndsAfterItsExpiry) {
 TEST_F(SimulationTest, AToolAlsoEndsInAPause) {
   start();
   ask(dds::PauseSession{});
-  channels.commands.tryPush(sample(1));
+  channels_.commands.tryPush(sample(1));
   const Simulation::Next next = tick();
   ASSERT_EQ(next.kind, Simulation::Next::Kind::wait);
   ASSERT_TRUE(next.until.has_value());
-  EXPECT_EQ(*next.until, now + milliseconds{100});
-  now = *next.until;
+  EXPECT_EQ(*next.until, now_ + milliseconds{100});
+  now_ = *next.until;
   tick();
-  EXPECT_TRUE(log->forces.empty());
+  EXPECT_TRUE(log_->forces.empty());
 }
 
 TEST_F(SimulationTest, AToolEndsWithItsWriter) {
   start();
-  channels.commands.tryPush(sample(1, 5, 0));
-  channels.commands.tryPush(sample(1, 6, 1));
+  channels_.commands.tryPush(sample(1, 5, 0));
+  channels_.commands.tryPush(sample(1, 6, 1));
   tick();
-  ASSERT_EQ(log->forces.size(), 2U);
-  channels.commands.tryPush(WriterLost{5});
+  ASSERT_EQ(log_->forces.size(), 2U);
+  channels_.commands.tryPush(WriterLost{5});
   tick();
-  EXPECT_EQ(log->forces.size(), 1U);
+  EXPECT_EQ(log_->forces.size(), 1U);
   const std::vector<dds::JournalEntry> entries = journal();
   ASSERT_EQ(entries.size(), 3U);
   const auto& ended = std::get<dds::InstrumentEnded>(entries[2].input);
@@ -72,44 +72,44 @@ TEST_F(SimulationTest, AToolEndsWithItsWriter) {
 
 TEST_F(SimulationTest, OlderSamplesAreDroppedUnlessTheClientStartedAgain) {
   start();
-  channels.commands.tryPush(sample(5));
-  channels.commands.tryPush(sample(4));
+  channels_.commands.tryPush(sample(5));
+  channels_.commands.tryPush(sample(4));
   tick();
-  EXPECT_EQ(log->forces.begin()->second.force.z(), 5.0);
-  EXPECT_EQ(channels.counters.value(ServiceCounter::instruments_dropped), 1U);
-  channels.commands.tryPush(sample(1, 77));
+  EXPECT_EQ(log_->forces.begin()->second.force.z(), 5.0);
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_dropped), 1U);
+  channels_.commands.tryPush(sample(1, 77));
   tick();
-  EXPECT_EQ(log->forces.begin()->second.force.z(), 1.0);
+  EXPECT_EQ(log_->forces.begin()->second.force.z(), 1.0);
 }
 
 TEST_F(SimulationTest, BoundsTheNumberOfTools) {
   start();
-  for (std::uint32_t tool = 0; tool < dds::kMaxInstruments + 3; ++tool) channels.commands.tryPush(sample(1, 5, tool));
+  for (std::uint32_t tool = 0; tool < dds::kMaxInstruments + 3; ++tool) channels_.commands.tryPush(sample(1, 5, tool));
   tick();
-  EXPECT_EQ(log->forces.size(), dds::kMaxInstruments);
-  EXPECT_EQ(channels.counters.value(ServiceCounter::instruments_dropped), 3U);
+  EXPECT_EQ(log_->forces.size(), dds::kMaxInstruments);
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_dropped), 3U);
 }
 
 TEST_F(SimulationTest, CountsSamplesThatTheWorldRefuses) {
   start();
-  channels.commands.tryPush(sample(2000));
+  channels_.commands.tryPush(sample(2000));
   tick();
-  EXPECT_TRUE(log->forces.empty());
-  EXPECT_EQ(channels.counters.value(ServiceCounter::instruments_refused), 1U);
-  now += milliseconds{200};
+  EXPECT_TRUE(log_->forces.empty());
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_refused), 1U);
+  now_ += milliseconds{200};
   tick();
   EXPECT_TRUE(journal().empty()) << "what never acted does not end";
 }
 
 TEST_F(SimulationTest, AResetForgetsTheTools) {
   start();
-  channels.commands.tryPush(sample(1));
+  channels_.commands.tryPush(sample(1));
   tick();
   push(dds::ResetSession{});
   tick();
   loadUntilDone();
   journal();
-  now += milliseconds{200};
+  now_ += milliseconds{200};
   tick();
   EXPECT_TRUE(journal().empty());
 }

@@ -51,6 +51,8 @@ TEST(Options, WrongOnesAreUsageErrors) {
       {"--scene", "a", "--pace", "0"},
       {"--scene", "a", "--pace", "nan"},
       {"--scene", "a", "--frame-rate", "0"},
+      {"--scene", "a", "--frame-rate", "0.5"},
+      {"--scene", "a", "--frame-rate", "1001"},
       {"--scene", "a", "--threads", "0"},
       {"--scene", "a", "--threads", "65"},
       {"--scene", "a", "--simd", "mmx"},

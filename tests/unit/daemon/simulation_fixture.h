@@ -15,23 +15,23 @@ namespace bleedsim::daemon {
 class SimulationTest : public testing::Test {
  protected:
   void start(SimulationOptions options = {{dds::PaceMode::maximum, 1.0}, {}, {}}) {
-    simulation = std::make_unique<Simulation>(options, fakeScene("first", log), fakeFactory(log), channels, now);
+    simulation_ = std::make_unique<Simulation>(options, fakeScene("first", log_), fakeFactory(log_), channels_, now_);
   }
 
   /// Ticks once; the reply of the request that was pushed before, if there is one.
-  Simulation::Next tick() { return simulation->tick(now); }
+  Simulation::Next tick() { return simulation_->tick(now_); }
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
 
   void push(dds::Action action) {
     dds::DecodedRequest request;
-    request.key = {{dds::Uuid{1}, 1}, ++seq};
+    request.key = {{dds::Uuid{1}, 1}, ++seq_};
     request.action = std::move(action);
     bleed_v1_Request original{};
-    original.seq = seq;
+    original.seq = seq_;
     request.original = std::make_unique<dds::RequestCopy>(original);
-    ASSERT_TRUE(channels.commands.tryPush(std::move(request)));
+    ASSERT_TRUE(channels_.commands.tryPush(std::move(request)));
   }
   /// Pushes, ticks, and gives back the answer.
   dds::Reply ask(dds::Action action) {
@@ -41,19 +41,19 @@ class SimulationTest : public testing::Test {
   }
   dds::Reply reply() {
     dds::Reply out;
-    EXPECT_TRUE(channels.replies.tryPop(out)) << "no reply to request " << seq;
+    EXPECT_TRUE(channels_.replies.tryPop(out)) << "no reply to request " << seq_;
     return out;
   }
   void loadUntilDone() {
-    while (simulation->state() == dds::SessionState::loading) {
-      channels.commands.wakeup().wait({});
+    while (simulation_->state() == dds::SessionState::loading) {
+      channels_.commands.wakeup().wait({});
       tick();
     }
   }
 
   std::vector<dds::JournalEntry> journal() {
     std::vector<dds::JournalEntry> out;
-    for (dds::JournalEntry entry; channels.journal.tryPop(entry);) out.push_back(std::move(entry));
+    for (dds::JournalEntry entry; channels_.journal.tryPop(entry);) out.push_back(std::move(entry));
     return out;
   }
 
@@ -65,15 +65,15 @@ class SimulationTest : public testing::Test {
     input.sample.radius = 0.01;
     input.sample.force = {0.0, 0.0, static_cast<double>(number)};
     input.sample.writer = writer;
-    input.received = now;
+    input.received = now_;
     return input;
   }
 
-  TimePoint now{std::chrono::seconds{100}};
-  std::shared_ptr<FakeLog> log = std::make_shared<FakeLog>();
-  Channels channels;
-  std::unique_ptr<Simulation> simulation;
-  std::uint64_t seq = 0;
+  TimePoint now_{std::chrono::seconds{100}};
+  std::shared_ptr<FakeLog> log_ = std::make_shared<FakeLog>();
+  Channels channels_;
+  std::unique_ptr<Simulation> simulation_;
+  std::uint64_t seq_ = 0;
 };
 
 }  // namespace bleedsim::daemon

@@ -10,20 +10,20 @@ using testing::HasSubstr;
 TEST_F(SimulationTest, ResetStartsANewEpochAtStepZero) {
   start();
   ticks(20);
-  const std::uint32_t before = simulation->epoch();
+  const std::uint32_t before = simulation_->epoch();
   ask(sph::AddWound{});
   journal();
   push(dds::ResetSession{});
   tick();
-  EXPECT_EQ(channels.board.read().report.state, dds::SessionState::loading);
+  EXPECT_EQ(channels_.board.read().report.state, dds::SessionState::loading);
   loadUntilDone();
   const dds::Reply done = reply();
   EXPECT_EQ(done.code, dds::ReplyCode::accepted);
   EXPECT_EQ(done.applied_step, 0U);
   EXPECT_EQ(done.epoch, before + 1);
-  EXPECT_EQ(simulation->state(), dds::SessionState::running);
-  EXPECT_TRUE(simulation->world().wounds().empty());
-  const auto scene = channels.board.takeScene();
+  EXPECT_EQ(simulation_->state(), dds::SessionState::running);
+  EXPECT_TRUE(simulation_->world().wounds().empty());
+  const auto scene = channels_.board.takeScene();
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->epoch, before + 1);
   const std::vector<dds::JournalEntry> entries = journal();
@@ -40,10 +40,10 @@ TEST_F(SimulationTest, ResetKeepsAPauseAndTheOutput) {
   tick();
   loadUntilDone();
   reply();
-  EXPECT_EQ(simulation->state(), dds::SessionState::paused);
-  EXPECT_EQ(simulation->world().stepCount(), 0U);
-  EXPECT_EQ(channels.board.read().report.frame_rate, 50.0);
-  const dds::FrameSnapshot* frame = channels.frames.load();
+  EXPECT_EQ(simulation_->state(), dds::SessionState::paused);
+  EXPECT_EQ(simulation_->world().stepCount(), 0U);
+  EXPECT_EQ(channels_.board.read().report.frame_rate, 50.0);
+  const dds::FrameSnapshot* frame = channels_.frames.load();
   ASSERT_NE(frame, nullptr);
   EXPECT_EQ(frame->frame.step, 0U);
   EXPECT_EQ(frame->frame.attributes, static_cast<std::uint32_t>(sph::kFrameDensity));
@@ -57,7 +57,7 @@ TEST_F(SimulationTest, LoadsAnotherScene) {
   tick();
   loadUntilDone();
   EXPECT_EQ(reply().code, dds::ReplyCode::accepted);
-  const auto scene = channels.board.takeScene();
+  const auto scene = channels_.board.takeScene();
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->name, "second");
   EXPECT_EQ(scene->frame_rate, 10.0) << "another scene brings its own output";
@@ -66,20 +66,20 @@ TEST_F(SimulationTest, LoadsAnotherScene) {
 TEST_F(SimulationTest, ABrokenSceneLeavesTheOldWorldAsItWas) {
   start();
   ticks(20);
-  const std::uint64_t hash = simulation->world().stateHash();
-  const std::uint32_t epoch = simulation->epoch();
+  const std::uint64_t hash = simulation_->world().stateHash();
+  const std::uint32_t epoch = simulation_->epoch();
   push(dds::LoadScene{"broken"});
   tick();
-  while (simulation->state() == dds::SessionState::loading) {
-    EXPECT_EQ(simulation->world().stateHash(), hash) << "the world waits while a scene is loaded";
-    channels.commands.wakeup().wait({});
+  while (simulation_->state() == dds::SessionState::loading) {
+    EXPECT_EQ(simulation_->world().stateHash(), hash) << "the world waits while a scene is loaded";
+    channels_.commands.wakeup().wait({});
     tick();
   }
   const dds::Reply refused = reply();
   EXPECT_EQ(refused.code, dds::ReplyCode::scene);
   EXPECT_THAT(refused.reason, HasSubstr("domain: missing"));
-  EXPECT_EQ(simulation->epoch(), epoch);
-  EXPECT_EQ(simulation->world().stateHash(), hash + 1000) << "and then does its next step";
+  EXPECT_EQ(simulation_->epoch(), epoch);
+  EXPECT_EQ(simulation_->world().stateHash(), hash + 1000) << "and then does its next step";
   EXPECT_TRUE(journal().empty());
 }
 

@@ -91,6 +91,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadRequest{"pace_zero", [] { return pace(bleed_v1_PACE_FACTOR, 0.0); }, StatusCode::invalid_argument, "pace.factor"},
         BadRequest{"pace_nan", [] { return pace(bleed_v1_PACE_FACTOR, kNaN); }, StatusCode::invalid_argument, "pace.factor"},
         BadRequest{"rate_negative", [] { return output(-60.0, 0); }, StatusCode::invalid_argument, "output.rate_hz"},
+        BadRequest{"rate_slow", [] { return output(0.5, 0); }, StatusCode::invalid_argument, "use 1 to 1000 frames"},
+        BadRequest{"rate_fast", [] { return output(1001.0, 0); }, StatusCode::invalid_argument, "use 1 to 1000 frames"},
         BadRequest{"rate_nan", [] { return output(kNaN, 0); }, StatusCode::invalid_argument, "output.rate_hz"},
         BadRequest{"attribute_platelet", [] { return output(0.0, 1U << bleed_v1_SEMANTIC_PLATELET); }, StatusCode::unsupported,
                    "output.attributes"},

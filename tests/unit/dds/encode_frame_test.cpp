@@ -57,6 +57,14 @@ TEST(FrameEncoder, WritesEveryAttributeAskedFor) {
   EXPECT_EQ(scalarAt<float>(frame, 12 + 12 + 2), 0.3F);
 }
 
+TEST(FrameEncoder, BytesPerParticleAreThoseOfThePayload) {
+  FrameEncoder encoder{Uuid{}};
+  for (std::uint32_t attributes = 0; attributes < 8; ++attributes) {
+    EXPECT_EQ(encoder.encode(threeParticles(attributes), 1).payload._length, 3 * frameBytesPerParticle(attributes)) << attributes;
+  }
+  EXPECT_EQ(frameBytesPerParticle(sph::kFrameVelocity), 28U);
+}
+
 TEST(FrameEncoder, ReusesItsMemory) {
   FrameEncoder encoder{Uuid{}};
   encoder.reserve(3);

@@ -5,6 +5,7 @@
 
 #include "service/dds/command_limits.h"
 #include "service/dds/session_encoder.h"
+#include "service/transport/clock.h"
 #include "tests/unit/dds/samples.h"
 
 namespace bleedsim::dds {
@@ -27,6 +28,30 @@ TEST(ViewText, StopsAtTheEndOfAnUnterminatedArray) {
   EXPECT_EQ(viewText(full), "abc");
 }
 
+TEST(Shortened, EndsAtAWordAndSaysThatMoreFollows) {
+  EXPECT_EQ(shortened("use 1 to 20 N", 13), "use 1 to 20 N") << "what fits stays";
+  EXPECT_EQ(shortened("use 1 to 20 N", 12), "use 1 to...") << "20 must not become 2";
+  EXPECT_EQ(shortened("use 1 to 20 N", 11), "use 1 to...");
+  EXPECT_EQ(shortened("first\nsecond line", 10), "first...");
+  EXPECT_EQ(shortened("a longwordthatdoesnotend", 10), "a longw...") << "a word that is most of the text is cut";
+  EXPECT_EQ(shortened("abcd\xC3\xA9\xC3\xA9\xC3\xA9", 8), "abcd...") << "no half of a character";
+  EXPECT_EQ(shortened("   ", 3), "   ");
+  EXPECT_EQ(shortened("abc", 2), "ab");
+}
+
+TEST(EncodeReply, CutsTheReasonAtAWord) {
+  Reply reply;
+  reply.code = ReplyCode::invalid;
+  reply.reason =
+      "output.attributes has bits 0x80000000, which this version does not publish: use velocity (0x4), viscosity (0x20), "
+      "density (0x40)";
+  ASSERT_GT(reply.reason.size(), kMaxReasonBytes);
+  const bleed_v1_Reply sample = encodeReply(reply);
+  EXPECT_STREQ(sample.reason,
+               "output.attributes has bits 0x80000000, which this version does not publish: use velocity (0x4), viscosity "
+               "(0x20), density...");
+}
+
 TEST(EncodeReply, CutsTheReason) {
   Reply reply;
   reply.key = {{Uuid{4}, 5}, 6};
@@ -37,7 +62,7 @@ TEST(EncodeReply, CutsTheReason) {
   EXPECT_EQ(sample.run, 5U);
   EXPECT_EQ(sample.seq, 6U);
   EXPECT_EQ(sample.code, static_cast<std::uint32_t>(bleed_v1_REPLY_INVALID));
-  EXPECT_EQ(std::strlen(sample.reason), kMaxReasonBytes);
+  EXPECT_EQ(std::string{sample.reason}, std::string(kMaxReasonBytes - 3, 'x') + "...");
 }
 
 TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
@@ -47,6 +72,7 @@ TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
   report.pace = {PaceMode::factor, 0.5};
   const std::vector<NamedCount> counts(80, NamedCount{"many", 1});
   EXPECT_EQ(encoder.encode(report, counts).heartbeat, 1U);
+  const std::int64_t before = transport::monotonicNow();
   const bleed_v1_Status& status = encoder.encode(report, counts);
   EXPECT_EQ(status.heartbeat, 2U);
   EXPECT_STREQ(status.session_name, "theatre");
@@ -54,7 +80,8 @@ TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
   EXPECT_EQ(std::strlen(status.text), 256U);
   EXPECT_EQ(status.counters._length, 64U);
   EXPECT_EQ(status.pace_mode, static_cast<std::uint32_t>(bleed_v1_PACE_FACTOR));
-  EXPECT_GT(status.monotonic_stamp_ns, 0);
+  EXPECT_GE(status.monotonic_stamp_ns, before);
+  EXPECT_LE(status.monotonic_stamp_ns, transport::monotonicNow());
 }
 
 TEST(SceneEncoder, TellsUnitsAndBounds) {

@@ -119,12 +119,12 @@ domain { capacity: 10 upper_m { x: 0.1 y: 0.1 z: 0.1 } lower_m { x: -0.0 y: 0 } 
 }
 
 TEST(NormalizedText, AttributesAreSortedAndStandOnce) {
-  const auto textOf = [](const std::string& attributes) {
+  const auto text_of = [](const std::string& attributes) {
     const Result<SceneDescription> scene = parseScene(std::string{kLeastScene} + "output { attributes: " + attributes + " }");
     EXPECT_TRUE(scene.ok()) << scene.status().message();
     return scene.ok() ? scene->normalized_text : attributes;
   };
-  EXPECT_EQ(textOf("[DENSITY, VELOCITY, DENSITY]"), textOf("[VELOCITY, DENSITY]"));
+  EXPECT_EQ(text_of("[DENSITY, VELOCITY, DENSITY]"), text_of("[VELOCITY, DENSITY]"));
 }
 
 }  // namespace

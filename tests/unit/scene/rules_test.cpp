@@ -144,7 +144,7 @@ const std::vector<Rule>& rules() {
       {"fluid_blocks {", repeated("fluid_blocks { lower_m {} upper_m { x: 0.002 y: 0.002 z: 0.002 } }\n", 63) + "fluid_blocks {",
        "fluid_blocks: ", "65 are given, allowed are at most 64"},
       // output, commands
-      {"frame_rate_hz: 30", "frame_rate_hz: 0.5", "output.frame_rate_hz: ", "allowed 1 to 1000 (Hz)"},
+      {"frame_rate_hz: 30", "frame_rate_hz: 0.5", "output.frame_rate_hz: ", "allowed 1 to 1000 (frames per simulated s)"},
       {"frame_rate_hz: 30", "frame_rate_hz: 1001", "output.frame_rate_hz: ", "value 1001"},
       {"attributes: VELOCITY", "attributes: 9", "output.attributes: ", "value 9 is unknown, known are VELOCITY"},
       {"attributes: VELOCITY", "attributes: NONE", "output.attributes: ", "NONE stands beside other attributes"},

@@ -56,8 +56,9 @@ TEST(OwnMath, PowIsWithinItsError) {
     const double base = std::exp(0.0503 * k);
     for (const double exponent : {-12.5, -1.0, -0.3216, 0.3568, 0.5, 2.0, 7.3}) {
       const double allowed = 1.0 + std::abs(exponent * 0.0503 * k);
-      worst =
-          std::max(worst, relativeError(ownPow(base, exponent), std::pow(static_cast<long double>(base), static_cast<long double>(exponent))) / allowed);
+      worst = std::max(worst, relativeError(ownPow(base, exponent),
+                                            std::pow(static_cast<long double>(base), static_cast<long double>(exponent))) /
+                                  allowed);
       const auto b = static_cast<float>(base);
       const auto e = static_cast<float>(exponent);
       const long double exact = std::pow(static_cast<long double>(b), static_cast<long double>(e));

@@ -59,12 +59,37 @@ class PassRig {
   const std::vector<double>& plateletRate() const { return platelet_rate_; }
   std::uint64_t overflowed() const { return overflowed_; }
 
+  /// The product of the implicit viscosity with the velocities, m/s^2, and its mean diagonal in `diagonal`.
+  std::vector<Vec3> viscousProduct(SimdTarget target, const WorldDescription& description, std::vector<double>& diagonal) {
+    const auto& sweeps = sweepsOf(description, target);
+    ViscousProductJob<Real> job;
+    job.scale = Real(5) * pairConstants<Real>(description, latticeOf(description), speedOfSound(description)).viscosity_scale;
+    std::vector<Real> product(std::size_t{capacity_} * 4);
+    job.product = product.data();
+    const auto function = viscosityVaries(description) ? sweeps.viscous_product : sweeps.uniform_viscous_product;
+    passes_.sweep(grid_, sorted_, capacity_, shares_, *executor_, function, job);
+    std::vector<Vec3> result(capacity_);
+    diagonal.resize(capacity_);
+    for (std::uint32_t k = 0; k < capacity_; ++k) {
+      const Real* a = &product[std::size_t{k} * 4];
+      result[sorted_.id[k]] = {double(a[0]), double(a[1]), double(a[2])};
+      diagonal[sorted_.id[k]] = static_cast<double>(a[3]);
+    }
+    return result;
+  }
+
  private:
   static const PassTable<Real>& tableOf(const WorldDescription& description, [[maybe_unused]] SimdTarget target) {
     if constexpr (std::is_same_v<Real, double>)
       return referencePasses(passChoice(description));
     else
       return *findPasses(target, passChoice(description));
+  }
+  static const SweepTable<Real>& sweepsOf(const WorldDescription& description, [[maybe_unused]] SimdTarget target) {
+    if constexpr (std::is_same_v<Real, double>)
+      return referenceSweeps(sweepChoice(description));
+    else
+      return *findSweeps(target, sweepChoice(description));
   }
   static std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
   static RestLattice latticeOf(const WorldDescription& d) {
@@ -94,7 +119,7 @@ class PassRig {
       passes_.pack(to, sorted_);
     });
     overflowed_ = passes_.density(grid_, sorted_, nullptr, count, shares_, *executor_);
-    passes_.force(grid_, sorted_, count, shares_, *executor_);
+    passes_.force(grid_, sorted_, count, shares_, *executor_, true);
     density_.resize(capacity_);
     acceleration_.resize(capacity_);
     platelet_rate_.resize(capacity_);

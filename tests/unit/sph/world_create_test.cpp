@@ -201,20 +201,20 @@ TEST(Effects, TheCatalogueNamesEachWithItsSource) {
 TEST(Effects, TheirSettingsEnableThem) {
   WorldDescription description;
   for (const EffectInfo& effect : effectCatalog()) EXPECT_FALSE(effectEnabled(description, effect.name)) << effect.name;
-  const auto onlyEnabled = [&](std::string_view name) {
+  const auto only_enabled = [&](std::string_view name) {
     for (const EffectInfo& effect : effectCatalog()) {
       EXPECT_EQ(effectEnabled(description, effect.name), effect.name == name) << effect.name;
     }
     description.effects = {};
   };
   description.effects.gravity.emplace();
-  onlyEnabled("gravity");
+  only_enabled("gravity");
   description.effects.pressure.emplace();
-  onlyEnabled("pressure");
+  only_enabled("pressure");
   description.effects.viscosity.emplace();
-  onlyEnabled("viscosity");
+  only_enabled("viscosity");
   description.effects.applied_force.emplace();
-  onlyEnabled("applied_force");
+  only_enabled("applied_force");
   EXPECT_FALSE(effectEnabled(description, "surface_tension"));
   EXPECT_FALSE(effectEnabled(description, ""));
 }

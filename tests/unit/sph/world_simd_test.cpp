@@ -47,7 +47,7 @@ WorldDescription clotting(WorldDescription description) {
 }
 
 const std::vector<Case>& cases() {
-  static const std::vector<Case> all{
+  static const std::vector<Case> kAll{
       {"FreeBlock",
        [] {
          return test::freeBlock({11, 9, 10}, 0.3);
@@ -78,7 +78,7 @@ const std::vector<Case>& cases() {
        }},
       {"Bleeding", bleeding},
   };
-  return all;
+  return kAll;
 }
 
 /// Frame storage sorted by id: targets may sort particles at a cell's border differently.
@@ -109,12 +109,12 @@ Differences compare(const FrameBuffer& a, const FrameBuffer& b) {
     EXPECT_EQ(a.id[i], b.id[j]);
     apart.position = std::max(apart.position, (test::positionOf(a, i) - test::positionOf(b, j)).norm());
     apart.velocity = std::max(apart.velocity, (test::velocityOf(a, i) - test::velocityOf(b, j)).norm());
-    apart.density = std::max(apart.density, std::abs(double{a.density[i]} - double{b.density[j]}));
+    apart.density = std::max(apart.density, std::abs(double(a.density[i]) - double(b.density[j])));
     apart.viscosity = std::max(apart.viscosity, std::abs(double(a.viscosity[i]) - double(b.viscosity[j])));
     apart.platelet = std::max(apart.platelet, std::abs(double(a.platelet[i]) - double(b.platelet[j])));
     largest.position = std::max(largest.position, test::positionOf(a, i).norm());
     largest.velocity = std::max(largest.velocity, test::velocityOf(a, i).norm());
-    largest.density = std::max(largest.density, double{a.density[i]});
+    largest.density = std::max(largest.density, double(a.density[i]));
     largest.viscosity = std::max(largest.viscosity, double(a.viscosity[i]));
   }
   return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density,

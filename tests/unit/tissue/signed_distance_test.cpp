@@ -15,7 +15,8 @@ struct Case {
   bool (*in_tissue)(const Vec3&);
 };
 
-void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }  // NOLINT: the name is GoogleTest's
+// NOLINTNEXTLINE(readability-identifier-naming): the name is GoogleTest's
+void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 
 const BowlShape kBowl{.rim_center = {0.1, -0.2, 0.05}, .sphere_radius = 0.9, .depth = 0.6};
 const BowlShape kHemisphere{.rim_center = {0, 0, 0}, .sphere_radius = 0.8, .depth = 0.8};

@@ -17,7 +17,8 @@ struct Vessel {
   std::vector<TissueDescription> tissue;
 };
 
-void PrintTo(const Vessel& one, std::ostream* out) { *out << one.name; }  // NOLINT: the name is GoogleTest's
+// NOLINTNEXTLINE(readability-identifier-naming): the name is GoogleTest's
+void PrintTo(const Vessel& one, std::ostream* out) { *out << one.name; }
 
 class Blood {
  public:

@@ -26,7 +26,6 @@ TEST(TissueField, emptyTouchesNothing) {
   WallSample<float> wall;
   EXPECT_TRUE(field.empty());
   EXPECT_FALSE(field.sample(0, 0, 0, wall));
-  EXPECT_FALSE(field.mayTouch({-1, -1, -1}, {1, 1, 1}));
   std::array<float, 3> position{0, 0, -1};
   std::array<float, 3> normal{};
   EXPECT_FALSE(field.project(position, normal));

@@ -15,7 +15,8 @@ struct Shot {
   bool head_on;    ///< along the normal the whole way
 };
 
-void PrintTo(const Shot& one, std::ostream* out) { *out << one.name; }  // NOLINT: the name is GoogleTest's
+// NOLINTNEXTLINE(readability-identifier-naming): the name is GoogleTest's
+void PrintTo(const Shot& one, std::ostream* out) { *out << one.name; }
 
 struct Flight {
   double lowest = std::numeric_limits<double>::infinity();  ///< phi, spacings

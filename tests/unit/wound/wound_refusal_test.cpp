@@ -84,39 +84,39 @@ std::string fingerprint(const ThroatWorld& world) {
 
 class WoundRefusal : public testing::Test {
  protected:
-  WoundRefusal() : world{plainDescription()} {
-    EXPECT_TRUE(world.set.add(discWound(0.003, 5e-6)).ok());
+  WoundRefusal() : world_{plainDescription()} {
+    EXPECT_TRUE(world_.set.add(discWound(0.003, 5e-6)).ok());
     WoundDescription second = discWound(0.003, 2e-6);
     second.position = {0.02, 0, 0};
-    EXPECT_TRUE(world.set.add(second).ok());
-    for (int step = 0; step < 50; ++step) world.step(1e-4);
+    EXPECT_TRUE(world_.set.add(second).ok());
+    for (int step = 0; step < 50; ++step) world_.step(1e-4);
   }
-  ThroatWorld world;
+  ThroatWorld world_;
 };
 
 TEST_F(WoundRefusal, ABadWoundIsNotAdded) {
-  const std::string before = fingerprint(world);
+  const std::string before = fingerprint(world_);
   for (const Spoiled& bad : spoiledWounds()) {
     WoundDescription wound = discWound(0.003, 1e-6);
     wound.position = {-0.02, 0, 0};
     bad.spoil(wound);
-    const auto added = world.set.add(wound);
+    const auto added = world_.set.add(wound);
     ASSERT_FALSE(added.ok()) << bad.says;
     EXPECT_EQ(added.status().code(), StatusCode::invalid_argument) << added.status().message();
     EXPECT_NE(added.status().message().find(bad.says), std::string::npos) << added.status().message() << " lacks " << bad.says;
-    EXPECT_EQ(fingerprint(world), before) << bad.says;
+    EXPECT_EQ(fingerprint(world_), before) << bad.says;
   }
   WoundDescription good = discWound(0.003, 1e-6);
   good.position = {-0.02, 0, 0};
-  const auto added = world.set.add(good);
+  const auto added = world_.set.add(good);
   ASSERT_TRUE(added.ok()) << added.status().message();
   EXPECT_EQ(*added, 3u) << "refused wounds must not use up ids";
 }
 
 TEST_F(WoundRefusal, ABadChangeChangesNothing) {
-  const std::string before = fingerprint(world);
+  const std::string before = fingerprint(world_);
   for (const Spoiled& bad : spoiledWounds()) {
-    WoundDescription wound = *world.set.description(2);
+    WoundDescription wound = *world_.set.description(2);
     bad.spoil(wound);
     const UpdateWound change{.wound_id = 2,
                              .name = wound.name,
@@ -126,23 +126,23 @@ TEST_F(WoundRefusal, ABadChangeChangesNothing) {
                              .shape = wound.shape,
                              .drive = wound.drive};
     bool withdrew = false;
-    const Status status = world.set.update(change, [&](const Throat&) { withdrew = true; });
+    const Status status = world_.set.update(change, [&](const Throat&) { withdrew = true; });
     EXPECT_EQ(status.code(), StatusCode::invalid_argument) << bad.says << ": " << status.message();
     EXPECT_NE(status.message().find(bad.says), std::string::npos) << status.message() << " lacks " << bad.says;
     EXPECT_FALSE(withdrew) << bad.says;
-    EXPECT_EQ(fingerprint(world), before) << bad.says;
+    EXPECT_EQ(fingerprint(world_), before) << bad.says;
   }
 }
 
 TEST_F(WoundRefusal, UnknownIdsAreNamedWithTheKnownOnes) {
-  const std::string before = fingerprint(world);
+  const std::string before = fingerprint(world_);
   for (const std::uint32_t id : {0u, 3u, 0xffffffffu}) {
-    const Status removed = world.set.remove(id, world.withdrawing());
+    const Status removed = world_.set.remove(id, world_.withdrawing());
     EXPECT_EQ(removed.code(), StatusCode::not_found);
     EXPECT_NE(removed.message().find("the wounds now are 1, 2"), std::string::npos) << removed.message();
-    EXPECT_EQ(world.set.update(driveChange(id, FlowDrive{0.0}), world.withdrawing()).code(), StatusCode::not_found);
+    EXPECT_EQ(world_.set.update(driveChange(id, FlowDrive{0.0}), world_.withdrawing()).code(), StatusCode::not_found);
   }
-  EXPECT_EQ(fingerprint(world), before);
+  EXPECT_EQ(fingerprint(world_), before);
 }
 
 TEST_F(WoundRefusal, PatchTooWideForAPeriodicSide) {

@@ -118,9 +118,10 @@ TEST(Activation, HalfTimeIsTheLogisticOne) {
   }
 }
 
-// A pool of 18 x 12 x 4 mm on a slope of 30 degrees for 0.1 s. Its clotting is sped up so that half of the platelets have gone after
-// 3 ms: it becomes a clot of 10 Pa s, which creeps with rho g sin(30) H^2/(2 b) = 4 mm/s at most, 0.4 mm. Fresh blood of 3.5 mPa s is
-// held by a thin layer at the wall only and slides by nearly g sin(30) t^2/2 = 25 mm. 24 and 0.3 mm were measured.
+// A pool of 18 x 12 x 4 mm on a slope of 30 degrees for 0.1 s. Its clotting is sped up so that half of the platelets have gone
+// after 3 ms: it becomes a clot of 10 Pa s, which creeps with rho g sin(30) H^2/(2 b) = 4 mm/s at most, 0.4 mm. Fresh blood
+// of 3.5 mPa s is held by a thin layer at the wall only and slides by nearly g sin(30) t^2/2 = 25 mm. 24 and 0.3 mm were
+// measured.
 TEST(Clot, HoldsOnASlopeWhereBloodRuns) {
   const auto travel = [](double speedup) {
     sph::WorldDescription scene = emptyScene();

@@ -29,7 +29,7 @@ TEST_P(HydrostaticTest, pressureSlope) {
     for (std::size_t i = 0; i < frame.count; ++i) {
       const double z = positionOf(frame, i).z();
       if (z < 3.0 * kSpacing || z > height - 3.0 * kSpacing) continue;
-      const double pressure = std::max(0.0, c2 * (double{frame.density[i]} - kRestDensity));
+      const double pressure = std::max(0.0, c2 * (static_cast<double>(frame.density[i]) - kRestDensity));
       count += 1.0;
       z_sum += z;
       p_sum += pressure;

@@ -51,7 +51,7 @@ struct Pace {
 };
 
 struct OutputSpec {
-  double rate_hz = 0.0;  ///< frames per simulated second; 0 keeps the rate
+  double rate_hz = 0.0;  ///< frames per simulated second, 1 to 1000; 0 keeps the rate
   std::optional<std::vector<std::string>>
       attributes{};  ///< "velocity", "radius", "platelet", "viscosity", "density"; unset keeps them
 };

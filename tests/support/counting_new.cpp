@@ -1,4 +1,4 @@
-#include "tests/unit/sph/counting_new.h"
+#include "tests/support/counting_new.h"
 
 #include <atomic>
 #include <cstddef>
