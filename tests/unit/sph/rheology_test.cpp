@@ -46,10 +46,11 @@ TYPED_TEST(FlowCurve, Platelets) {
   const double clot = 10.0;
   const double a = std::log(clot / fresh) / 0.99;
   for (const double p : {0.0, 0.2, 0.5, 0.99, 1.0}) {
-    const double found = thickened(static_cast<TypeParam>(fresh), static_cast<TypeParam>(clot), static_cast<TypeParam>(p));
+    const auto found =
+        static_cast<double>(thickened(static_cast<TypeParam>(fresh), static_cast<TypeParam>(clot), static_cast<TypeParam>(p)));
     EXPECT_NEAR(found / (clot * std::exp(-a * p)), 1.0, TestFixture::kTolerance) << p;
   }
-  EXPECT_NEAR(thickened(TypeParam(0.0041), TypeParam(10), TypeParam(0.99)), 0.0041, 1e-8) << "fresh blood is as it flows";
+  EXPECT_NEAR(double(thickened(TypeParam(0.0041), TypeParam(10), TypeParam(0.99))), 0.0041, 1e-8) << "fresh blood is as it flows";
 }
 
 double viscosityOfFirst(const WorldDescription& description) {
