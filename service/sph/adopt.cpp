@@ -60,6 +60,7 @@ Status WorldCore<Real>::adopt(World& world) {
     std::replace(particles_.inverse_viscosity.data(), particles_.inverse_viscosity.data() + count_, former_default,
                  present_default);
   }
+  takeOrFill(particles_.own_viscosity, theirs.own_viscosity, count_, Real(0));
   takeOrFill(particles_.platelet, theirs.platelet, count_,
              static_cast<Real>(description_.effects.platelets.value_or(PlateletSettings{}).fresh));
   takeOrFill(particles_.radius, theirs.radius, count_, Real(1));
