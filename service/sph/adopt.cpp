@@ -14,7 +14,8 @@ namespace {
 bool sameBody(const WorldDescription& a, const WorldDescription& b) {
   return a.domain.lower == b.domain.lower && a.domain.upper == b.domain.upper && a.domain.periodic == b.domain.periodic &&
          a.capacity == b.capacity && a.spacing == b.spacing && a.support_ratio == b.support_ratio && a.kernel == b.kernel &&
-         a.rest_density == b.rest_density && a.tissue.size() == b.tissue.size() && a.max_wounds == b.max_wounds;
+         a.rest_density == b.rest_density && a.model == b.model && a.planar == b.planar && a.tissue.size() == b.tissue.size() &&
+         a.max_wounds == b.max_wounds;
 }
 
 template <class Real>

@@ -57,7 +57,7 @@ void Clotting<Real>::advance(Particles<Real>& p, const PairPasses<Real>& passes,
       const Real diffused = old + dt * passes.acceleration()[std::size_t{i} * 4 + 3];
       p.platelet[i] = std::clamp(diffused / (Real(1) + dt * sinks), Real(0), Real(1));
     }
-    walls.forEachTouching(share, [&](std::uint32_t i, const WallSample<Real>& wall) {
+    walls.forEachTouching(share, [&](std::uint32_t i, const WallSample<Real>& wall, Real) {
       const Real contact = std::min(Real(1), walls.field().planeShareAt(wall.distance) * inverse_share_);
       p.platelet[i] /= Real(1) + dt * wall_ * contact;
     });

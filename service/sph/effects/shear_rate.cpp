@@ -45,7 +45,7 @@ void ShearRate<Real>::update(const CellGrid<Real>& grid, const Particles<Real>& 
   job.moments = moments_.data();
   passes.sweep(grid, p, count, shares, executor, sweep_, job);
   executor.run(shares, [&](int share) {
-    walls.forEachTouching(share, [&](std::uint32_t i, const WallSample<Real>& wall) { addWall(i, p, wall); });
+    walls.forEachTouching(share, [&](std::uint32_t i, const WallSample<Real>& wall, Real) { addWall(i, p, wall); });
     const std::uint32_t end = grid.view().rowBegin(grid.firstRow(share + 1, shares, count));
     for (std::uint32_t i = grid.view().rowBegin(grid.firstRow(share, shares, count)); i < end; ++i) {
       rate_[i] = shearRateOf(moments_.data() + std::size_t{i} * kShearMoments) / h_;
