@@ -58,6 +58,11 @@ inline constexpr Range kContactDistance{0.1, 1.0, "spacings"};
 inline constexpr Range kRepulsionPower{1.0, 12.0, "1"};
 inline constexpr Range kRepulsionDamping{0.0, 10.0, "c0/dx"};
 inline constexpr Range kAdhesion{0.0, 1000.0, "m/s^2"};
+inline constexpr Range kLiteralStiffness{1e-6, 1e6, "m^2/s^2"};
+inline constexpr Range kLiteralTension{0.0, 1.0, "N/m"};
+inline constexpr Range kLiteralExponent{0.0, 50.0, "1"};
+inline constexpr Range kLiteralRepulsion{0.0, 1e6, "N m^2"};
+inline constexpr Range kLiteralContact{0.05, 0.5, "spacings"};
 inline constexpr Range kMaxSources{1.0, 256.0, "sources"};
 
 inline constexpr Range kDirection{1e-6, 1e6, "1, its length"};
