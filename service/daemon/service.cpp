@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "service/daemon/build_info.h"
+#include "service/transport/clock.h"
 
 namespace bleedsim::daemon {
 namespace {
@@ -21,7 +22,7 @@ std::string hostName() {
 }  // namespace
 
 dds::SessionIdentity makeIdentity(const std::string& session) {
-  return {transport::drawUuid(), session, buildVersion(), buildId(), hostName(), getpid()};
+  return {transport::drawUuid(), session, buildVersion(), buildId(), hostName(), getpid(), transport::realtimeNow()};
 }
 
 Result<std::unique_ptr<Service>> Service::create(const ServiceOptions& options, LoadedScene first, SceneFactory factory) {

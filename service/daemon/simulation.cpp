@@ -145,7 +145,8 @@ void Simulation::advance(TimePoint now) {
   ++steps_in_frame_;
   const bool in_pause = pacer_.paused();
   const double time = world_->time();
-  channels_.board.progress(world_->stepCount(), time, world_->particleCount(), pacer_.realTimeFactor(now, time));
+  channels_.board.progress(world_->stepCount(), time, world_->particleCount(), pacer_.realTimeFactor(now, time),
+                           pacer_.behind(now, time));
   if (in_pause) --steps_left_;
   const bool frame_due = frame_clock_.take(time);
   ended_ = options_.duration.has_value() && time >= *options_.duration;

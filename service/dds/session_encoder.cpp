@@ -22,6 +22,7 @@ StatusEncoder::StatusEncoder(const SessionIdentity& identity) {
   copyText(identity.version, sample_.version);
   copyText(identity.host, sample_.host);
   sample_.pid = identity.pid;
+  sample_.start_stamp_ns = identity.start_stamp_ns;
   sample_.protocol_minor = bleed_v1_PROTOCOL_MINOR;
   counters_.reserve(kMaxCounters);
 }
@@ -35,6 +36,7 @@ const bleed_v1_Status& StatusEncoder::encode(const StatusReport& report, std::sp
   sample_.pace_mode = static_cast<std::uint32_t>(report.pace.mode);
   sample_.pace_factor = report.pace.factor;
   sample_.real_time_factor = report.real_time_factor;
+  sample_.behind_s = report.behind;
   sample_.frame_rate_hz = report.frame_rate;
   sample_.particles = report.particles;
   sample_.wounds = report.wounds;

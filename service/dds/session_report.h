@@ -19,6 +19,7 @@ struct SessionIdentity {
   std::string build_id;
   std::string host;
   std::int32_t pid = 0;
+  std::int64_t start_stamp_ns = 0;  ///< CLOCK_REALTIME
 };
 
 enum class SessionState : std::uint32_t {
@@ -41,6 +42,7 @@ struct StatusReport {
   double sim_time = 0.0;  ///< s
   Pace pace;
   double real_time_factor = 0.0;
+  double behind = 0.0;      ///< wall s owed by the pacing
   double frame_rate = 0.0;  ///< frames per simulated second
   std::uint32_t particles = 0;
   std::uint32_t wounds = 0;

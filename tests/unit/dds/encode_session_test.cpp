@@ -11,7 +11,7 @@
 namespace bleedsim::dds {
 namespace {
 
-SessionIdentity identity() { return {Uuid{1, 2}, "theatre", "1.0.0", "1.0.0-abc", "host", 77}; }
+SessionIdentity identity() { return {Uuid{1, 2}, "theatre", "1.0.0", "1.0.0-abc", "host", 77, 1234}; }
 
 TEST(CopyText, CutsAtACharacterOfUtf8) {
   char small[6];
@@ -77,6 +77,7 @@ TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
   EXPECT_EQ(status.heartbeat, 2U);
   EXPECT_STREQ(status.session_name, "theatre");
   EXPECT_EQ(status.pid, 77);
+  EXPECT_EQ(status.start_stamp_ns, 1234);
   EXPECT_EQ(std::strlen(status.text), 256U);
   EXPECT_EQ(status.counters._length, 64U);
   EXPECT_EQ(status.pace_mode, static_cast<std::uint32_t>(bleed_v1_PACE_FACTOR));

@@ -45,6 +45,8 @@ struct SessionStatus {
   std::int32_t pid = 0;
   std::int64_t monotonic_stamp_ns = 0;
   std::int64_t realtime_stamp_ns = 0;
+  std::int64_t start_stamp_ns = 0;  ///< CLOCK_REALTIME when the daemon started
+  double behind_s = 0.0;            ///< wall time that the pacing owes
 };
 
 /// The scene that runs; sent at each load and to late joiners.
