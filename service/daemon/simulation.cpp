@@ -160,6 +160,7 @@ void Simulation::publishFrame(TimePoint now) {
   dds::FrameSnapshot& snapshot = *channels_.frames.back();
   world_->copyFrame(snapshot.frame, attributes_);
   world_->collectStats(snapshot.stats);
+  channels_.board.countFaults(snapshot.stats.counters);
   const std::span<const sph::WoundState> wounds = world_->wounds();
   snapshot.wounds.assign(wounds.begin(),
                          wounds.begin() + static_cast<std::ptrdiff_t>(std::min(wounds.size(), dds::kMaxWoundLedgers)));

@@ -22,6 +22,12 @@ class StatusBoard {
     report_.behind = behind;
   }
 
+  /// The solver's counters at a frame.
+  void countFaults(const decltype(dds::StatusReport::faults)& faults) {
+    const std::lock_guard lock{mutex_};
+    report_.faults = faults;
+  }
+
   /// A change of state, pace, rate, ...: `edit(StatusReport&)`. The publisher must be woken by the caller.
   template <class Edit>
   void change(Edit&& edit) {

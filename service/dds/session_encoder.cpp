@@ -41,6 +41,9 @@ const bleed_v1_Status& StatusEncoder::encode(const StatusReport& report, std::sp
   sample_.particles = report.particles;
   sample_.wounds = report.wounds;
   counters_.clear();
+  for (std::size_t i = 0; i < report.faults.size(); ++i) {
+    appendCounter(counters_, sph::counterName(static_cast<sph::Counter>(i)), report.faults[i]);
+  }
   for (const NamedCount& count : counts) appendCounter(counters_, count.name, count.value);
   const auto length = static_cast<std::uint32_t>(counters_.size());
   sample_.counters = {length, length, counters_.data(), false};

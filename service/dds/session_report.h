@@ -1,6 +1,7 @@
 // What the session tells about itself on the scene and status topics.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "idl/bleed.h"
 #include "service/dds/request.h"
+#include "service/sph/world.h"
 
 namespace bleedsim::dds {
 
@@ -47,6 +49,8 @@ struct StatusReport {
   std::uint32_t particles = 0;
   std::uint32_t wounds = 0;
   std::string text;
+  /// The solver's, as of the last frame, by sph::Counter.
+  std::array<std::uint64_t, static_cast<std::size_t>(sph::Counter::count)> faults{};
   std::size_t full_frame_bytes = 0;  ///< payload of a frame at capacity; not published
 };
 
