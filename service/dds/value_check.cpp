@@ -32,7 +32,7 @@ Result<sph::Vec3> checkDirection(std::string_view field, const bleed_v1_Vec3& va
   const double length = vector->norm();
   if (!(length >= kDirectionLengthLimits.lower && length <= kDirectionLengthLimits.upper)) {
     return Status{StatusCode::invalid_argument,
-                  fmt::format("{} has length {:g}: give a direction of any length from {:g} to {:g}", field, length,
+                  fmt::format("{} has length {:g}: use a direction of any length from {:g} to {:g}", field, length,
                               kDirectionLengthLimits.lower, kDirectionLengthLimits.upper)};
   }
   return sph::Vec3{*vector / length};

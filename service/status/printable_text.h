@@ -48,7 +48,7 @@ inline Status checkPrintable(std::string_view text, bool lines = false) {
   };
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = characterLength(text.substr(i));
-    if (length == 0) return refused(i, "not UTF-8; write the text in UTF-8");
+    if (length == 0) return refused(i, "not UTF-8; use text in UTF-8");
     const std::string_view character = text.substr(i, length);
     if (isControl(character) && !(lines && (character == "\n" || character == "\t"))) {
       return refused(i, "a control character; use printable characters");
