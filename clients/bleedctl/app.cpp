@@ -29,7 +29,7 @@ void addGlobalOptions(CLI::App& app, Context& context) {
   app.add_flag("--json", context.json, "Print JSON");
   app.add_option("--timeout", context.timeout_s, "Seconds to wait for the session and for its answer, 0 to 86400")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 86400.0))
+      ->check(finiteIn(0.0, 86400.0))
       ->take_last()
       ->type_name("S");
 }
@@ -79,7 +79,7 @@ int runBleedctl(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) { return explain(app, error); }
-  blockStopSignals();
+  endOnStopSignals();
   return context.action();
 }
 

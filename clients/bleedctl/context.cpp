@@ -1,26 +1,12 @@
 #include "clients/bleedctl/context.h"
 
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <fmt/core.h>
 
 #include "clients/bleedctl/json.h"
+#include "service/status/number_text.h"
 
 namespace bleedsim::bleedctl {
-namespace {
-
-/// A finite number that fills the whole text.
-std::optional<double> parseNumber(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-}  // namespace
-
 ExitCode exitCodeOf(const Status& status) {
   switch (status.code()) {
     case StatusCode::ok:
@@ -60,8 +46,11 @@ int fail(ExitCode code, const std::string& message) {
   return code;
 }
 
-int finish(const Context& context, std::future<client::Reply> future, const std::string& done) {
-  const client::Reply reply = future.get();
+int finish(const Context& context, std::future<client::Reply> reply, const std::string& done) {
+  return finish(context, reply.get(), done);
+}
+
+int finish(const Context& context, const client::Reply& reply, const std::string& done) {
   if (context.json) {
     JsonObject json;
     json.add("code", client::toString(reply.code)).add("accepted", reply.accepted()).add("reason", reply.reason);
@@ -73,6 +62,7 @@ int finish(const Context& context, std::future<client::Reply> future, const std:
       const std::string object = reply.object_id != 0 ? fmt::format(" [wound {}]", reply.object_id) : std::string{};
       fmt::print("{}{} at step {} ({:.4f} s)\n", done, object, reply.applied_step, reply.sim_time_s);
     }
+    std::fflush(stdout);  // a command that goes on waiting may be ended by a signal
     return kDone;
   }
   const ExitCode code = reply.code == client::ReplyCode::no_answer  ? kNoSession
@@ -104,6 +94,10 @@ std::string checkVec3(const std::string& text) {
 
 std::string checkFinite(const std::string& text) {
   return parseNumber(text) ? std::string{} : fmt::format("'{}' is not a finite number", text);
+}
+
+CLI::Validator finiteIn(double lower, double upper) {
+  return {[lower, upper](std::string& text) { return checkNumberText(text, lower, upper).message(); }, {}};
 }
 
 }  // namespace bleedsim::bleedctl

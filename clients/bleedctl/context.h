@@ -39,14 +39,16 @@ int fail(ExitCode code, const std::string& message);
 
 /// Waits for the reply and prints it: one line, or a JSON object. `done` says in words what was accepted.
 int finish(const Context& context, std::future<client::Reply> reply, const std::string& done);
+int finish(const Context& context, const client::Reply& reply, const std::string& done);
 
 /// "X,Y,Z": three finite numbers; otherwise the message names the text.
 Result<client::Vec3> parseVec3(const std::string& text);
 /// A CLI11 check that refuses anything but three finite numbers.
 std::string checkVec3(const std::string& text);
 
-/// Makes `--timeout` and every length positive and finite: a CLI11 check.
+/// CLI11 checks of floating options: a finite number, and one from `lower` to `upper`.
 std::string checkFinite(const std::string& text);
+CLI::Validator finiteIn(double lower, double upper);
 
 /// One function for each group of commands; each adds its commands to the program.
 void addSessionCommands(CLI::App& app, Context& context);    // list, status, watch

@@ -5,8 +5,11 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "clients/bleedctl/context.h"
+#include "service/status/number_text.h"
+#include "service/status/request_limits.h"
 
 namespace bleedsim::bleedctl {
 namespace {
@@ -31,12 +34,11 @@ void addPlain(CLI::App& app, Context& context, const std::string& name, const st
 Result<client::Pace> parsePace(const std::string& text) {
   if (text == "realtime") return client::Pace{.mode = PaceMode::real_time};
   if (text == "max") return client::Pace{.mode = PaceMode::maximum};
-  if (checkFinite(text).empty()) {
-    const double factor = std::stod(text);
-    if (factor > 0.0) return client::Pace{.mode = PaceMode::factor, .factor = factor};
-  }
-  return Status{StatusCode::invalid_argument,
-                fmt::format("pace '{}' is not known: use realtime, max or a factor above 0, as 0.5", text)};
+  const std::optional<double> factor = parseNumber(text);
+  if (factor && *factor >= kMinPace && *factor <= kMaxPace) return client::Pace{.mode = PaceMode::factor, .factor = *factor};
+  return Status{
+      StatusCode::invalid_argument,
+      fmt::format("pace '{}' is not known: use realtime, max or a factor from {:g} to {:g}, as 0.5", text, kMinPace, kMaxPace)};
 }
 
 Result<std::string> readScene(const std::string& path) {
@@ -57,9 +59,11 @@ int runLoad(const Context& context, const std::string& path) {
   int code = kDone;
   std::optional<Connection> connection = connect(context, commandsOnly(), code);
   if (!connection) return code;
-  code = finish(context, connection->session.loadScene(*text), fmt::format("loaded {}", path));
+  const client::Reply reply = connection->session.loadScene(*text).get();
+  code = finish(context, reply, fmt::format("loaded {}", path));
   // A reply has room for the first problems only.
-  if (code == kFailed) fmt::print(stderr, "'bleedd --scene {} --check' lists all that is wrong in a scene.\n", path);
+  if (reply.code == client::ReplyCode::scene)
+    fmt::print(stderr, "'bleedd --scene {} --check' lists all that is wrong in a scene.\n", path);
   return code;
 }
 
@@ -83,7 +87,7 @@ void addControlCommands(CLI::App& app, Context& context) {
 
   CLI::App* step = app.add_subcommand("step", "Make N solver steps; the session has to be paused");
   const auto count = std::make_shared<std::uint32_t>(1);
-  step->add_option("N", *count, "Number of steps")->required()->check(CLI::Range(1U, 1'000'000'000U))->type_name("");
+  step->add_option("N", *count, "Number of steps")->required()->check(CLI::Range(1U, kMaxStepCount))->type_name("");
   step->callback([&context, count] {
     context.action = [&context, count] {
       int code = kDone;

@@ -7,10 +7,11 @@ namespace bleedsim::bleedctl {
 
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,     ///< the session refused, or something failed
-  kUsage = 2,      ///< wrong command line, unknown interface or domain
-  kNoSession = 3,  ///< the session was not found, or did not answer in time
-  kFile = 4,       ///< a file could not be read or written, or is damaged
+  kFailed = 1,         ///< the session refused, or something failed
+  kUsage = 2,          ///< wrong command line, unknown interface or domain
+  kNoSession = 3,      ///< the session was not found, or did not answer in time
+  kFile = 4,           ///< a file could not be read or written, or is damaged
+  kInterrupted = 130,  ///< Ctrl-C or SIGTERM while it waited
 };
 
 inline constexpr const char* kExitCodeText =
@@ -19,7 +20,8 @@ inline constexpr const char* kExitCodeText =
     "  1  the session refused the command, or something failed\n"
     "  2  wrong command line, domain or interface\n"
     "  3  no such session, or no answer within --timeout\n"
-    "  4  a file could not be read or written, or is damaged\n";
+    "  4  a file could not be read or written, or is damaged\n"
+    "  130  ended by Ctrl-C or SIGTERM while it waited\n";
 
 /// For failures of the client library.
 ExitCode exitCodeOf(const Status& status);

@@ -61,6 +61,7 @@ int runRecord(const Context& context, const std::string& path, const client::Rec
   if (!client) return fail(client.status());
   const Result<client::SessionStatus> session = client->find(context.session, context.timeout());
   if (!session) return fail(session.status());
+  holdStopSignals();
   Result<client::Recorder> recorder = client::Recorder::start(*client, session->name, path, limits);
   if (!recorder) return recorder.status().code() == StatusCode::io ? failFile(recorder.status()) : fail(recorder.status());
   bool interrupted = false;
@@ -95,7 +96,9 @@ std::string infoJson(const std::string& path, const recording::RecordingSummary&
   json.add("truncated", s.truncated).add("truncation_reason", s.truncation_reason).add("journal_entries", s.journal_entries);
   json.add("journal_gaps", s.journal_gaps).add("session", s.session_name).add("scene", s.scene_name).add("version", s.version);
   json.add("build_id", s.build_id).add("simd_target", s.simd_target).add("precision", s.precision);
-  return json.add("file_bytes", s.file_bytes).text();
+  JsonObject counters;
+  for (const auto& [name, value] : s.fault_counters) counters.add(name, value);
+  return json.add("file_bytes", s.file_bytes).raw("fault_counters", counters.text()).text();
 }
 
 int runInfo(const Context& context, const std::string& path) {
@@ -120,6 +123,9 @@ int runInfo(const Context& context, const std::string& path) {
   fmt::print("blood             {:.3f} mL in the recording, {:.3f} mL since load\n", s.ml_emitted, s.ml_emitted_total);
   fmt::print("real-time factor  {:.2f}\n", s.mean_real_time_factor);
   fmt::print("replayable        {}\n", s.replayable ? std::string{"yes"} : "no: " + s.reason);
+  for (const auto& [name, value] : s.fault_counters) {
+    if (value != 0) fmt::print("{:<17} {}\n", name, value);
+  }
   if (s.truncated) fmt::print("truncated         {}\n", s.truncation_reason);
   return kDone;
 }
@@ -127,6 +133,7 @@ int runInfo(const Context& context, const std::string& path) {
 int runExport(const Context& context, const std::string& path, const std::string& directory) {
   Result<recording::RecordingReader> reader = recording::RecordingReader::open(path);
   if (!reader) return failFile(reader.status());
+  holdStopSignals();
   bool interrupted = false;
   const auto progress = [&](std::size_t done, std::size_t total) {
     if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r{} of {} frames\x1b[K{}", done, total, done == total ? "\n" : "");
@@ -151,14 +158,14 @@ void addRecord(CLI::App& app, Context& context) {
   const auto v = std::make_shared<RecordArguments>();
   record->add_option("-o,--output", v->path, "File to write, replaced if it exists")->required()->type_name("FILE");
   CLI::Option* duration = record->add_option("--duration", v->duration_s, "Simulated seconds from the first frame")
-                              ->check(CLI::Range(1e-9, 1e9))
+                              ->check(finiteIn(1e-9, 1e9))
                               ->type_name("S");
   CLI::Option* frames = record->add_option("--frames", v->frames, "Number of frames")
                             ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40U))
                             ->type_name("N");
   duration->excludes(frames);
   CLI::Option* rate = record->add_option("--rate", v->rate_hz, "Record at most so many frames per simulated second")
-                          ->check(CLI::Range(1e-9, 1e6))
+                          ->check(finiteIn(1e-9, 1e6))
                           ->type_name("HZ");
   record->callback([&context, v, duration, frames, rate] {
     client::RecordingLimits limits;

@@ -1,9 +1,12 @@
 // list, status and watch.
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <fmt/core.h>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unistd.h>
 
 #include "clients/bleedctl/context.h"
@@ -36,11 +39,23 @@ std::string paceText(const client::SessionStatus& status) {
   return fmt::format("{}", status.pace_factor);
 }
 
+/// What went wrong so far, as "  speed_clamped 3"; empty when nothing did. Counts of what came in as it should are left out.
+std::string faultText(const client::FrameStats& stats) {
+  constexpr std::array<std::string_view, 4> kTraffic{"requests", "requests_resent", "instrument_samples", "instruments_ended"};
+  std::string text;
+  for (const auto& [name, value] : stats.fault_counters) {
+    if (value == 0 || std::find(kTraffic.begin(), kTraffic.end(), name) != kTraffic.end()) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "  " : ", ", name, value);
+  }
+  return text;
+}
+
 JsonObject statusJson(const client::SessionStatus& status) {
   JsonObject json;
   json.add("session", status.name).add("state", client::toString(status.state)).add("epoch", status.epoch);
   json.add("step", status.step).add("sim_time_s", status.sim_time_s).add("pace", paceText(status));
-  json.add("real_time_factor", status.real_time_factor).add("frame_rate_hz", status.frame_rate_hz);
+  json.add("real_time_factor", status.real_time_factor).add("behind_s", status.behind_s);
+  json.add("frame_rate_hz", status.frame_rate_hz);
   json.add("particles", status.particles).add("wounds", status.wounds).add("text", status.text);
   json.add("version", status.version).add("host", status.host).add("pid", status.pid).add("heartbeat", status.heartbeat);
   JsonObject counters;
@@ -70,7 +85,8 @@ void printStatus(const client::SessionStatus& status, const Result<client::Scene
   fmt::print("session           {} ({} on {}, pid {})\n", status.name, status.version, status.host, status.pid);
   fmt::print("state             {}{}{}\n", client::toString(status.state), status.text.empty() ? "" : ": ", status.text);
   fmt::print("simulated         {:.3f} s, step {}, epoch {}\n", status.sim_time_s, status.step, status.epoch);
-  fmt::print("pace              {}, real-time factor {:.2f}\n", paceText(status), status.real_time_factor);
+  fmt::print("pace              {}, real-time factor {:.2f}, {:.3f} s behind\n", paceText(status), status.real_time_factor,
+             status.behind_s);
   fmt::print("frames            {} per simulated second\n", status.frame_rate_hz);
   fmt::print("particles         {}, wounds {}\n", status.particles, status.wounds);
   if (scene.ok()) {
@@ -154,12 +170,16 @@ class WatchPrinter {
       json.add("state", client::toString(status.state)).add("seq", stats.seq).add("step", stats.step);
       json.add("sim_time_s", stats.sim_time_s).add("real_time_factor", stats.real_time_factor).add("behind_s", stats.behind_s);
       json.add("particles", stats.particles).add("ml_emitted", stats.emitted_ml).add("frames", frames.received);
-      fmt::print("{}\n", json.add("gaps", frames.gaps).text());
+      JsonObject counters;
+      for (const auto& [name, value] : stats.fault_counters) counters.add(name, value);
+      fmt::print("{}\n", json.add("gaps", frames.gaps).raw("fault_counters", counters.text()).text());
       return;
     }
-    printLine(fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time  {:>8} particles  {:>9.3f} mL  {} frames, {} gaps",
-                          client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.particles,
-                          stats.emitted_ml, frames.received, frames.gaps));
+    printLine(
+        fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time, {:.3f} s behind  {:>8} particles  {:>9.3f} mL  {} frames, "
+                    "{} gaps{}",
+                    client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.behind_s, stats.particles,
+                    stats.emitted_ml, frames.received, frames.gaps, faultText(stats)));
   }
 
   void printState(const client::SessionStatus& status) const {
@@ -188,6 +208,7 @@ int runWatch(const Context& context, std::uint64_t count) {
   int code = kDone;
   std::optional<Connection> connection = connect(context, {}, code);
   if (!connection) return code;
+  holdStopSignals();
   client::Session& session = connection->session;
   WatchPrinter printer{context};
   std::uint64_t printed = 0;

@@ -87,6 +87,8 @@ SessionStatus fromWire(const bleed_v1_Status& wire) {
   out.pid = wire.pid;
   out.monotonic_stamp_ns = wire.monotonic_stamp_ns;
   out.realtime_stamp_ns = wire.realtime_stamp_ns;
+  out.start_stamp_ns = wire.start_stamp_ns;
+  out.behind_s = wire.behind_s;
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include "clients/lib/session_impl.h"
 #include "clients/lib/wire_text.h"
+#include "service/status/printable_text.h"
 #include "service/transport/clock.h"
 #include "service/transport/uuid.h"
 
@@ -60,6 +61,9 @@ std::uint64_t InstrumentStream::lastSeq() const { return impl_->sample.seq; }
 
 Result<InstrumentStream> Session::instrument(std::uint32_t tool, const std::string& name) {
   bleed_v1_Instrument start{};
+  if (const Status printable = checkPrintable(name); !printable) {
+    return Status{StatusCode::invalid_argument, fmt::format("the name of a tool: {}", printable.message())};
+  }
   if (!copyText(name, start.name)) {
     return Status{StatusCode::invalid_argument,
                   fmt::format("the name of a tool has {} bytes: at most 32 are possible", name.size())};

@@ -6,12 +6,13 @@
 #include <string_view>
 
 #include "clients/lib/wire_text.h"
+#include "service/status/printable_text.h"
+#include "service/status/request_limits.h"
 
 namespace bleedsim::client {
 namespace {
 
 constexpr std::size_t kMaxOutline = 512;
-constexpr std::size_t kMaxSceneText = 4U << 20U;
 
 bleed_v1_Vec3 wireVec3(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
@@ -22,6 +23,9 @@ RequestPointer make(std::uint32_t request) {
 }
 
 Status setName(const std::string& name, bleed_v1_Wound& into) {
+  if (const Status printable = checkPrintable(name); !printable) {
+    return {StatusCode::invalid_argument, fmt::format("the name of a wound: {}", printable.message())};
+  }
   if (copyText(name, into.name)) return {};
   return {StatusCode::invalid_argument, fmt::format("the name of a wound has {} bytes: at most 64 are possible", name.size())};
 }
@@ -134,9 +138,10 @@ Result<RequestPointer> buildOutput(const OutputSpec& output) {
 }
 
 Result<RequestPointer> buildLoadScene(const std::string& text) {
-  if (text.size() > kMaxSceneText || text.find('\0') != std::string::npos) {
+  if (text.size() > kMaxSceneBytes || text.find('\0') != std::string::npos) {
     return Status{StatusCode::invalid_argument,
-                  fmt::format("this is no scene text ({} bytes): it is text of at most 4 MiB without zero bytes", text.size())};
+                  fmt::format("this is no scene text ({} bytes): it is text of at most {} bytes without zero bytes", text.size(),
+                              kMaxSceneBytes)};
   }
   RequestPointer out = make(bleed_v1_REQUEST_LOAD_SCENE);
   out->text = text;

@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <fmt/core.h>
 #include <iostream>
 #include <thread>
 
 #include "service/daemon/build_info.h"
 #include "service/dds/command_limits.h"
+#include "service/status/number_text.h"
 #include "service/transport/domain.h"
 #include "service/transport/names.h"
 
@@ -20,8 +20,8 @@ constexpr int kMaxDefaultThreads = 8;
 constexpr double kMaxDuration = 1e9;
 
 constexpr const char* kFooter =
-    "Exit codes: 0 ended as asked (also by SIGINT or SIGTERM), 1 failure of the network or the system, 2 wrong command line or\n"
-    "scene, 3 another bleedd runs a session of this name.\n"
+    "Exit codes: 0 ended as asked (also by SIGINT or SIGTERM), 1 failure of the network or the system, 2 wrong command line,\n"
+    "domain, interface or scene, 3 another bleedd runs a session of this name.\n"
     "Without --interface only this host can take part. With CYCLONEDDS_URI set, that configuration is used as it is.";
 
 int defaultThreads() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxDefaultThreads); }
@@ -29,16 +29,17 @@ int defaultThreads() { return std::clamp(static_cast<int>(std::thread::hardware_
 /// What CLI11 expects of a validator: the empty text, or what is wrong.
 std::string textOf(const Status& status) { return status.message(); }
 
+CLI::Validator finiteIn(double lower, double upper) {
+  return {[lower, upper](std::string& text) { return textOf(checkNumberText(text, lower, upper)); }, {}};
+}
+
 }  // namespace
 
 Result<dds::Pace> parsePace(const std::string& text) {
   if (text == "realtime") return dds::Pace{dds::PaceMode::real_time, 1.0};
   if (text == "max") return dds::Pace{dds::PaceMode::maximum, 1.0};
-  char* end = nullptr;
-  const double factor = std::strtod(text.c_str(), &end);
-  const bool number = end != text.c_str() && *end == '\0';
-  if (number && factor >= dds::kPaceLimits.lower && factor <= dds::kPaceLimits.upper) {
-    return dds::Pace{dds::PaceMode::factor, factor};
+  if (checkNumberText(text, dds::kPaceLimits.lower, dds::kPaceLimits.upper)) {
+    return dds::Pace{dds::PaceMode::factor, *parseNumber(text)};
   }
   return Status{StatusCode::invalid_argument, fmt::format("pace '{}': use realtime, max or a factor from {:g} to {:g}", text,
                                                           dds::kPaceLimits.lower, dds::kPaceLimits.upper)};
@@ -72,7 +73,7 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
       ->type_name("PACE")
       ->capture_default_str();
   auto* rate_option = app.add_option("--frame-rate", frame_rate, "Frames per simulated second; without it, the scene's")
-                          ->check(CLI::Range(dds::kFrameRateLimits.lower, dds::kFrameRateLimits.upper))
+                          ->check(finiteIn(dds::kFrameRateLimits.lower, dds::kFrameRateLimits.upper))
                           ->type_name("HZ");
   app.add_option("--threads", options.world.threads, "Threads of the solver; results do not depend on it")
       ->check(CLI::Range(1, kMaxThreads))
@@ -82,7 +83,7 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
       ->type_name("TARGET")
       ->capture_default_str();
   auto* duration_option = app.add_option("--duration", duration, "End after this many simulated seconds")
-                              ->check(CLI::Range(0.0, kMaxDuration))
+                              ->check(finiteIn(0.0, kMaxDuration))
                               ->type_name("SECONDS");
   app.add_flag("--check", options.check, "Check the scene, build its world and exit");
   auto* list = app.add_flag("--list-effects", options.list_effects,

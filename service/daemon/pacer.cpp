@@ -16,6 +16,7 @@ void Pacer::restart(TimePoint now) {
   wall_start_ = now;
   sim_start_ = 0.0;
   owed_ = 0.0;
+  forgetMarks();
   if (pause_) pause_ = Pause{now, 0.0};
 }
 
@@ -25,6 +26,7 @@ void Pacer::setPace(dds::Pace pace, TimePoint now, double sim_time) {
   pace_ = pace;
   wall_start_ = now;
   sim_start_ = sim_time;
+  forgetMarks();
   if (pause_) pause_ = Pause{now, sim_time};
 }
 
@@ -46,9 +48,22 @@ double Pacer::secondsAhead(TimePoint now, double sim_time) const {
 
 double Pacer::behind(TimePoint now, double sim_time) const { return std::max(0.0, -secondsAhead(now, sim_time)); }
 
-double Pacer::realTimeFactor(TimePoint now, double sim_time) const {
-  const double wall = wallElapsed(now);
-  return wall > 0.0 ? simElapsed(sim_time) / wall : 0.0;
+void Pacer::forgetMarks() {
+  oldest_mark_ = 0;
+  mark_count_ = 1;
+  marks_[0] = {};
+}
+
+double Pacer::realTimeFactor(TimePoint now, double sim_time) {
+  const auto mark = [this](std::size_t i) -> Mark& { return marks_[(oldest_mark_ + i) % kMarks]; };
+  const Mark here{wallElapsed(now), simElapsed(sim_time)};
+  while (mark_count_ > 1 && mark(1).wall <= here.wall - kWindowSeconds) {
+    oldest_mark_ = (oldest_mark_ + 1) % kMarks;
+    --mark_count_;
+  }
+  if (here.wall - mark(mark_count_ - 1).wall >= kMarkSeconds && mark_count_ < kMarks) mark(mark_count_++) = here;
+  const Mark& from = mark(0);
+  return here.wall > from.wall ? (here.sim - from.sim) / (here.wall - from.wall) : 0.0;
 }
 
 }  // namespace bleedsim::daemon

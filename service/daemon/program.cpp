@@ -18,6 +18,12 @@ void logStart(const ServiceOptions& options, const Service& service, const scene
   spdlog::info("scene '{}', capacity {} particles, SIMD target {}", scene.name, scene.world.capacity, simd);
 }
 
+/// Of a service that could not start or did not end as asked.
+ExitCode exitCodeOf(const Status& status) {
+  if (status.code() == StatusCode::unavailable) return ExitCode::name_taken;
+  return status.code() == StatusCode::invalid_argument ? ExitCode::usage : ExitCode::failure;
+}
+
 ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory factory, SignalWatch& signals) {
   const std::shared_ptr<const scene::SceneDescription> scene = loaded.scene;
   const std::string_view simd = sph::simdTargetName(loaded.world->simdTarget());
@@ -29,7 +35,7 @@ ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory fac
   Result<std::unique_ptr<Service>> service = Service::create(service_options, std::move(loaded), std::move(factory));
   if (!service) {
     spdlog::error("{}", service.status().message());
-    return service.status().code() == StatusCode::unavailable ? ExitCode::name_taken : ExitCode::failure;
+    return exitCodeOf(service.status());
   }
   logStart(service_options, **service, *scene, simd);
   signals.start([&service] {
@@ -43,7 +49,7 @@ ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory fac
     return ExitCode::ok;
   }
   spdlog::error("{}", ended.message());
-  return ended.code() == StatusCode::unavailable ? ExitCode::name_taken : ExitCode::failure;
+  return exitCodeOf(ended);
 }
 
 }  // namespace

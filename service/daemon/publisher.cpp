@@ -39,6 +39,7 @@ Result<std::unique_ptr<Publisher>> Publisher::create(const transport::Participan
 
 Publisher::Publisher(const dds::SessionIdentity& identity, Channels& channels, SessionGuard guard, Writers writers)
     : session_{identity.uuid},
+      start_stamp_ns_{identity.start_stamp_ns},
       channels_{channels},
       guard_{std::move(guard)},
       buffer_watch_{transport::receiveBufferLimit()},
@@ -56,7 +57,7 @@ void Publisher::requestStop() {
 // Asked on the thread that writes the status samples, so that the answer and the heartbeats that others have seen agree.
 std::optional<Rival> Publisher::findStrongerRival() {
   std::optional<Rival> rival = guard_.poll();
-  if (!rival || gave_way_ || !mustGiveWay(session_, status_encoder_.heartbeat(), *rival)) return {};
+  if (!rival || gave_way_ || !mustGiveWay({session_, start_stamp_ns_, status_encoder_.heartbeat()}, *rival)) return {};
   gave_way_ = true;
   return rival;
 }

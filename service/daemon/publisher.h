@@ -60,6 +60,7 @@ class Publisher {
   void count(const Status& written);
 
   dds::Uuid session_;
+  std::int64_t start_stamp_ns_;
   Channels& channels_;
   SessionGuard guard_;
   BufferWatch buffer_watch_;

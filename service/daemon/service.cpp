@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "service/daemon/build_info.h"
+#include "service/transport/clock.h"
 
 namespace bleedsim::daemon {
 namespace {
@@ -21,13 +22,18 @@ std::string hostName() {
 }  // namespace
 
 dds::SessionIdentity makeIdentity(const std::string& session) {
-  return {transport::drawUuid(), session, buildVersion(), buildId(), hostName(), getpid()};
+  return {transport::drawUuid(), session, buildVersion(), buildId(), hostName(), getpid(), transport::realtimeNow()};
 }
 
 Result<std::unique_ptr<Service>> Service::create(const ServiceOptions& options, LoadedScene first, SceneFactory factory) {
   if (Status name = transport::checkSessionName(options.session); !name) return name;
   const Result<transport::Participant> participant = transport::Participant::create(options.participant);
-  if (!participant) return Status{StatusCode::io, participant.status().message()};
+  if (!participant) {
+    const StatusCode code = participant.status().code();
+    const bool given_wrong =
+        code == StatusCode::invalid_argument || code == StatusCode::not_found || code == StatusCode::unavailable;
+    return Status{given_wrong ? StatusCode::invalid_argument : StatusCode::io, participant.status().message()};
+  }
   std::unique_ptr<Service> service{new Service{makeIdentity(options.session)}};
 
   Result<SessionGuard> guard = SessionGuard::create(*participant, service->identity_);

@@ -22,7 +22,8 @@ struct ServiceOptions {
 
 class Service {
  public:
-  /// Joins the domain, makes sure that the session name is free, and puts the scene in place. unavailable: the name is taken.
+  /// Joins the domain, makes sure that the session name is free, and puts the scene in place. unavailable: the name is taken;
+  /// invalid_argument: the domain or the interface does not exist.
   static Result<std::unique_ptr<Service>> create(const ServiceOptions& options, LoadedScene first, SceneFactory factory);
 
   /// Runs the simulation on this thread until a shutdown request, the end of the duration or requestStop(). unavailable: another

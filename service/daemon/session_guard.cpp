@@ -7,10 +7,14 @@
 
 namespace bleedsim::daemon {
 
-bool mustGiveWay(const dds::Uuid& own, std::uint64_t own_heartbeat, const Rival& rival) {
-  if (own_heartbeat >= kEstablishedHeartbeat) return false;
-  if (rival.heartbeat >= kEstablishedHeartbeat) return true;
-  return rival.uuid < own;
+// The start stamps decide between established daemons only: clocks of two hosts may differ, and what runs must not end because a
+// new daemon's clock is late.
+bool mustGiveWay(const Contender& own, const Contender& rival) {
+  const bool established = own.heartbeat >= kEstablishedHeartbeat;
+  const bool rival_established = rival.heartbeat >= kEstablishedHeartbeat;
+  if (established != rival_established) return rival_established;
+  if (established && own.start_stamp_ns != rival.start_stamp_ns) return rival.start_stamp_ns < own.start_stamp_ns;
+  return rival.uuid < own.uuid;
 }
 
 Status nameTaken(const std::string& session, const Rival& rival) {
@@ -46,7 +50,9 @@ std::optional<Rival> SessionGuard::poll() {
     if (sample.data == nullptr || sample.data->state == bleed_v1_STATE_STOPPED) return;
     const dds::Uuid uuid = transport::toUuid(sample.data->session);
     if (uuid == own_) return;
-    found = Rival{uuid, std::string{dds::viewText(sample.data->host)}, sample.data->pid, sample.data->heartbeat};
+    found = Rival{{uuid, sample.data->start_stamp_ns, sample.data->heartbeat},
+                  std::string{dds::viewText(sample.data->host)},
+                  sample.data->pid};
   };
   for (;;) {
     const Result<std::size_t> taken = reader_.take(look);

@@ -12,20 +12,26 @@
 
 namespace bleedsim::daemon {
 
-/// Another daemon of the same session name.
-struct Rival {
+/// What daemons of one session name know of each other.
+struct Contender {
   dds::Uuid uuid{};
-  std::string host;
-  std::int32_t pid = 0;
-  std::uint64_t heartbeat = 0;
+  std::int64_t start_stamp_ns = 0;  ///< CLOCK_REALTIME
+  std::uint64_t heartbeat = 0;      ///< of the newest status
 };
 
-/// A daemon is established after this many of its own status samples: from then on it never gives way.
+/// Another daemon of the same session name.
+struct Rival : Contender {
+  std::string host;
+  std::int32_t pid = 0;
+};
+
+/// A daemon is established after this many of its own status samples: from then on it never gives way to a new one.
 inline constexpr std::uint64_t kEstablishedHeartbeat = 8;
 
-/// Which of two daemons that see each other ends: both come to the same answer. An established one stays; of two that are new
-/// the one with the lower uuid does.
-bool mustGiveWay(const dds::Uuid& own, std::uint64_t own_heartbeat, const Rival& rival);
+/// Which of two daemons that see each other ends: both come to the same answer. An established one stays. Two established ones
+/// meet when they could not hear each other for a while: the one that started first stays. Of two that are new, and of two that
+/// started at the same time, the one with the lower uuid does.
+bool mustGiveWay(const Contender& own, const Contender& rival);
 
 /// "session 'x' is run by another bleedd already: host h, process 7; ..."
 Status nameTaken(const std::string& session, const Rival& rival);

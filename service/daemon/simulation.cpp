@@ -156,7 +156,8 @@ void Simulation::advance(TimePoint now) {
   ++steps_in_frame_;
   const bool in_pause = pacer_.paused();
   const double time = world_->time();
-  channels_.board.progress(world_->stepCount(), time, world_->particleCount(), pacer_.realTimeFactor(now, time));
+  channels_.board.progress(world_->stepCount(), time, world_->particleCount(), pacer_.realTimeFactor(now, time),
+                           pacer_.behind(now, time));
   if (in_pause) --steps_left_;
   const bool frame_due = frame_clock_.take(time);
   ended_ = options_.duration.has_value() && time >= *options_.duration;
@@ -170,6 +171,7 @@ void Simulation::publishFrame(TimePoint now) {
   dds::FrameSnapshot& snapshot = *channels_.frames.back();
   world_->copyFrame(snapshot.frame, attributes_);
   world_->collectStats(snapshot.stats);
+  channels_.board.countFaults(snapshot.stats.counters);
   const std::span<const sph::WoundState> wounds = world_->wounds();
   snapshot.wounds.assign(wounds.begin(),
                          wounds.begin() + static_cast<std::ptrdiff_t>(std::min(wounds.size(), dds::kMaxWoundLedgers)));

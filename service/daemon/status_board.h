@@ -13,12 +13,19 @@ namespace bleedsim::daemon {
 class StatusBoard {
  public:
   /// What moves with every step. Not a change that is worth a status of its own.
-  void progress(std::uint64_t step, double sim_time, std::uint32_t particles, double real_time_factor) {
+  void progress(std::uint64_t step, double sim_time, std::uint32_t particles, double real_time_factor, double behind) {
     const std::lock_guard lock{mutex_};
     report_.step = step;
     report_.sim_time = sim_time;
     report_.particles = particles;
     report_.real_time_factor = real_time_factor;
+    report_.behind = behind;
+  }
+
+  /// The solver's counters at a frame.
+  void countFaults(const decltype(dds::StatusReport::faults)& faults) {
+    const std::lock_guard lock{mutex_};
+    report_.faults = faults;
   }
 
   /// A change of state, pace, rate, ...: `edit(StatusReport&)`. The publisher must be woken by the caller.

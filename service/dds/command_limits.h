@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "service/sph/frame_rate.h"
+#include "service/status/request_limits.h"
 
 namespace bleedsim::dds {
 
@@ -18,23 +19,23 @@ struct Limits {
 };
 
 inline constexpr Limits kPositionLimits{-1e6, 1e6, "m"};
-inline constexpr Limits kDirectionLengthLimits{1e-6, 1e6, "1, its length"};
+inline constexpr Limits kDirectionLengthLimits{1e-6, 1e6, ""};
 inline constexpr Limits kLengthLimits{1e-6, 1e3, "m"};
 inline constexpr Limits kOutlineLimits{-1e3, 1e3, "m"};
 inline constexpr Limits kFlowLimits{0.0, 1e6, "mL/s"};
 inline constexpr Limits kPressureLimits{0.0, 1e6, "mmHg"};
-inline constexpr Limits kDischargeLimits{0.0, 1.0, "1; 0 takes the default"};
+inline constexpr Limits kDischargeLimits{0.0, 1.0, "(0 takes the default)"};
 inline constexpr Limits kForceLimits{-1e6, 1e6, "N"};
 inline constexpr Limits kDurationLimits{1e-9, 1e6, "simulated s"};
-inline constexpr Limits kPaceLimits{1e-4, 1e3, "simulated s per s"};
+inline constexpr Limits kPaceLimits{kMinPace, kMaxPace, "simulated s per s"};
 inline constexpr Limits kFrameRateLimits{sph::kMinFrameRate, sph::kMaxFrameRate, "frames per simulated s; 0 keeps the rate"};
 inline constexpr double kDefaultDischargeCoefficient = 0.61;
 
 inline constexpr std::uint32_t kMinPolygonPoints = 3;
 inline constexpr std::uint32_t kMinPolylinePoints = 2;
 inline constexpr std::uint32_t kMaxOutlinePoints = 256;
-inline constexpr std::uint32_t kMaxStepCount = 10'000'000;
-inline constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20;
+using bleedsim::kMaxSceneBytes;
+using bleedsim::kMaxStepCount;
 inline constexpr std::size_t kMaxReasonBytes = 127;
 
 }  // namespace bleedsim::dds

@@ -22,6 +22,7 @@ StatusEncoder::StatusEncoder(const SessionIdentity& identity) {
   copyText(identity.version, sample_.version);
   copyText(identity.host, sample_.host);
   sample_.pid = identity.pid;
+  sample_.start_stamp_ns = identity.start_stamp_ns;
   sample_.protocol_minor = bleed_v1_PROTOCOL_MINOR;
   counters_.reserve(kMaxCounters);
 }
@@ -35,10 +36,14 @@ const bleed_v1_Status& StatusEncoder::encode(const StatusReport& report, std::sp
   sample_.pace_mode = static_cast<std::uint32_t>(report.pace.mode);
   sample_.pace_factor = report.pace.factor;
   sample_.real_time_factor = report.real_time_factor;
+  sample_.behind_s = report.behind;
   sample_.frame_rate_hz = report.frame_rate;
   sample_.particles = report.particles;
   sample_.wounds = report.wounds;
   counters_.clear();
+  for (std::size_t i = 0; i < report.faults.size(); ++i) {
+    appendCounter(counters_, sph::counterName(static_cast<sph::Counter>(i)), report.faults[i]);
+  }
   for (const NamedCount& count : counts) appendCounter(counters_, count.name, count.value);
   const auto length = static_cast<std::uint32_t>(counters_.size());
   sample_.counters = {length, length, counters_.data(), false};

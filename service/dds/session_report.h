@@ -1,6 +1,7 @@
 // What the session tells about itself on the scene and status topics.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "idl/bleed.h"
 #include "service/dds/request.h"
+#include "service/sph/world.h"
 
 namespace bleedsim::dds {
 
@@ -19,6 +21,7 @@ struct SessionIdentity {
   std::string build_id;
   std::string host;
   std::int32_t pid = 0;
+  std::int64_t start_stamp_ns = 0;  ///< CLOCK_REALTIME
 };
 
 enum class SessionState : std::uint32_t {
@@ -41,10 +44,13 @@ struct StatusReport {
   double sim_time = 0.0;  ///< s
   Pace pace;
   double real_time_factor = 0.0;
+  double behind = 0.0;      ///< wall s owed by the pacing
   double frame_rate = 0.0;  ///< frames per simulated second
   std::uint32_t particles = 0;
   std::uint32_t wounds = 0;
   std::string text;
+  /// The solver's, as of the last frame, by sph::Counter.
+  std::array<std::uint64_t, static_cast<std::size_t>(sph::Counter::count)> faults{};
   std::size_t full_frame_bytes = 0;  ///< payload of a frame at capacity; not published
 };
 

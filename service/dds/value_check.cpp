@@ -1,8 +1,9 @@
 #include "service/dds/value_check.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+
+#include "service/status/printable_text.h"
 
 namespace bleedsim::dds {
 
@@ -29,17 +30,18 @@ Result<sph::Vec3> checkDirection(std::string_view field, const bleed_v1_Vec3& va
   Result<sph::Vec3> vector = checkVector(field, value, kPositionLimits);
   if (!vector) return vector;
   const double length = vector->norm();
-  if (Status checked = checkNumber(field, length, kDirectionLengthLimits); !checked) return checked;
+  if (!(length >= kDirectionLengthLimits.lower && length <= kDirectionLengthLimits.upper)) {
+    return Status{StatusCode::invalid_argument,
+                  fmt::format("{} has length {:g}: use a direction of any length from {:g} to {:g}", field, length,
+                              kDirectionLengthLimits.lower, kDirectionLengthLimits.upper)};
+  }
   return sph::Vec3{*vector / length};
 }
 
 Status checkLabel(std::string_view field, std::string_view text) {
-  const bool printable = std::none_of(text.begin(), text.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte < 0x20U || byte == 0x7FU;
-  });
+  const Status printable = checkPrintable(text);
   if (printable) return {};
-  return {StatusCode::invalid_argument, fmt::format("{} holds a control character: use printable text", field)};
+  return {StatusCode::invalid_argument, fmt::format("{}: {}", field, printable.message())};
 }
 
 }  // namespace bleedsim::dds

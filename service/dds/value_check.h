@@ -19,7 +19,7 @@ Result<sph::Vec3> checkVector(std::string_view field, const bleed_v1_Vec3& value
 /// A vector whose length can be divided by, made of length one.
 Result<sph::Vec3> checkDirection(std::string_view field, const bleed_v1_Vec3& value);
 
-/// ok if the text is printable: no control characters.
+/// ok if the text is printable: UTF-8 without control characters.
 Status checkLabel(std::string_view field, std::string_view text);
 
 }  // namespace bleedsim::dds

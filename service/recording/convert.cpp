@@ -123,6 +123,8 @@ void counters(ToMessage& to, const char* name, const Sequence& in, Repeated& out
   out.set_pid(sample.pid);
   out.set_monotonic_stamp_ns(sample.monotonic_stamp_ns);
   out.set_realtime_stamp_ns(sample.realtime_stamp_ns);
+  out.set_start_stamp_ns(sample.start_stamp_ns);
+  out.set_behind_s(sample.behind_s);
   return to.status();
 }
 

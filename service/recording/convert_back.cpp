@@ -156,6 +156,8 @@ Result<SamplePtr<bleed_v1_Status>> fromRecording(const recording::Status& messag
   out->pid = message.pid();
   out->monotonic_stamp_ns = message.monotonic_stamp_ns();
   out->realtime_stamp_ns = message.realtime_stamp_ns();
+  out->start_stamp_ns = message.start_stamp_ns();
+  out->behind_s = message.behind_s();
   return finish(to, std::move(out));
 }
 

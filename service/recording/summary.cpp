@@ -94,6 +94,8 @@ class Collector {
 ::bleedsim::Status Collector::addStats(const RecordedMessage& message) {
   if (::bleedsim::Status status = decode(message, stats_); !status) return status;
   ++out_.frame_stats;
+  out_.fault_counters.clear();
+  for (const Counter& counter : stats_.fault_counters()) out_.fault_counters.emplace_back(counter.name(), counter.value());
   real_time_factors_ += stats_.real_time_factor();
   ledger_.push_back({Epoch{stats_.session(), stats_.epoch()}, {stats_.seq(), stats_.emitted_ml()}});
   return {};

@@ -40,6 +40,8 @@ struct RecordingSummary {
   std::string simd_target;
   std::string precision;
   std::uint64_t file_bytes = 0;
+  /// Of the last statistics: the solver's since its epoch began, the service's since its start.
+  std::vector<std::pair<std::string, std::uint64_t>> fault_counters;
   /// First and last seq of each run of missing frames, the first 1000 of them; empty where frames were skipped.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> gap_ranges;
 };

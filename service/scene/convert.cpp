@@ -83,6 +83,7 @@ sph::FluidBlock toFluidBlock(const FluidBlock& block) {
                          .viscosity = std::nullopt,
                          .platelet = std::nullopt};
   if (block.has_viscosity_pa_s()) result.viscosity = block.viscosity_pa_s();
+  if (block.has_platelet()) result.platelet = block.platelet();
   return result;
 }
 
@@ -105,6 +106,11 @@ sph::WorldDescription toWorld(const Scene& scene) {
   for (const FluidBlock& block : scene.fluid_blocks()) world.fluid_blocks.push_back(toFluidBlock(block));
   world.max_wounds = scene.commands().max_wounds();
   if (scene.has_max_dt_s()) world.max_dt = scene.max_dt_s();
+  world.planar = scene.domain().planar();
+  if (scene.model() == Scene::LITERAL) {
+    world.model = sph::Model::literal;
+    world.literal = convertLiteral(scene.literal());
+  }
   return world;
 }
 

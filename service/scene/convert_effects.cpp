@@ -97,6 +97,22 @@ sph::EffectSettings convertEffects(const Effects& effects, bool spline) {
   return result;
 }
 
+sph::LiteralSettings convertLiteral(const Literal& literal) {
+  sph::LiteralSettings result;
+  result.pressure = literal.pressure() == Literal::VARIATIONAL ? sph::PressureForm::variational : sph::PressureForm::symmetric;
+  if (literal.has_stiffness_m2_per_s2()) result.stiffness = literal.stiffness_m2_per_s2();
+  result.tension = literal.tension_n_per_m();
+  result.normal_cutoff = literal.normal_cutoff();
+  result.thickening = literal.thickening_pa_s();
+  if (literal.has_thickening_exponent()) result.thickening_exponent = literal.thickening_exponent();
+  result.platelet_diffusivity = literal.platelet_diffusivity_m2_per_s();
+  if (literal.has_repulsion_n_m2()) result.repulsion = literal.repulsion_n_m2();
+  result.power_1 = static_cast<int>(literal.power_1());
+  result.power_2 = static_cast<int>(literal.power_2());
+  result.contact_radius = literal.contact_radius();
+  return result;
+}
+
 std::uint32_t convertAttributes(const Output& output) {
   std::uint32_t bits = 0;
   for (const int attribute : output.attributes()) {

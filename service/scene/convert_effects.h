@@ -10,6 +10,8 @@ namespace bleedsim::scene {
 /// the explicit viscosity only.
 sph::EffectSettings convertEffects(const Effects& effects, bool spline);
 
+/// Of a scene with model LITERAL, its defaults filled in.
+sph::LiteralSettings convertLiteral(const Literal& literal);
 /// Bits of sph::FrameAttribute.
 std::uint32_t convertAttributes(const Output& output);
 

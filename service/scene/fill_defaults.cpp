@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "service/scene/number_walk.h"
+#include "service/sph/effect_settings.h"
 
 namespace bleedsim::scene {
 namespace {
@@ -39,12 +40,25 @@ void sortAttributes(Output& output) {
   output.mutable_attributes()->Assign(values.begin(), values.end());
 }
 
+void fillLiteral(Literal& literal) {
+  const sph::LiteralSettings standard;
+  if (!literal.has_pressure()) literal.set_pressure(Literal::SYMMETRIC);
+  if (!literal.has_tension_n_per_m()) literal.set_tension_n_per_m(standard.tension);
+  if (!literal.has_normal_cutoff()) literal.set_normal_cutoff(standard.normal_cutoff);
+  if (!literal.has_thickening_pa_s()) literal.set_thickening_pa_s(standard.thickening);
+  if (!literal.has_platelet_diffusivity_m2_per_s()) literal.set_platelet_diffusivity_m2_per_s(standard.platelet_diffusivity);
+  if (!literal.has_power_1()) literal.set_power_1(static_cast<std::uint32_t>(standard.power_1));
+  if (!literal.has_power_2()) literal.set_power_2(static_cast<std::uint32_t>(standard.power_2));
+  if (!literal.has_contact_radius()) literal.set_contact_radius(standard.contact_radius);
+}
+
 }  // namespace
 
 void fillDefaults(Scene& scene) {
   if (!scene.has_seed()) scene.set_seed(1);
   if (scene.frame_id().empty()) scene.set_frame_id("bleedsim");
   if (!scene.has_model()) scene.set_model(Scene::SOUND);
+  if (scene.model() == Scene::LITERAL) fillLiteral(*scene.mutable_literal());
   if (scene.has_resolution()) {
     Resolution& resolution = *scene.mutable_resolution();
     if (!resolution.has_support_ratio()) resolution.set_support_ratio(2.0);

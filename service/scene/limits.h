@@ -13,7 +13,7 @@ namespace bleedsim::scene {
 struct Range {
   double lower;
   double upper;
-  std::string_view unit;  ///< "1": a pure number
+  std::string_view unit;  ///< empty: a pure number
 };
 
 inline constexpr Range kCoordinate{-10.0, 10.0, "m"};
@@ -22,9 +22,9 @@ inline constexpr double kMinPeriodicSide = 3.0;    ///< support radii
 inline constexpr double kMaxCells = 16'777'216.0;  ///< grid cells of one support radius
 inline constexpr Range kCapacity{1.0, 2'000'000.0, "particles"};
 inline constexpr Range kSpacing{1e-5, 0.02, "m"};
-inline constexpr Range kSupportRatio{1.5, 3.5, "1"};
+inline constexpr Range kSupportRatio{1.5, 3.5, ""};
 inline constexpr Range kDensity{500.0, 5000.0, "kg/m^3"};
-inline constexpr Range kMachFactor{5.0, 50.0, "1"};
+inline constexpr Range kMachFactor{5.0, 50.0, ""};
 inline constexpr Range kDesignSpeed{0.001, 20.0, "m/s"};
 inline constexpr Range kMaxFallOrDepth{0.0, 10.0, "m"};
 inline constexpr Range kMaxDt{1e-9, 1.0, "s"};
@@ -58,10 +58,15 @@ inline constexpr Range kContactDistance{0.1, 1.0, "spacings"};
 inline constexpr Range kRepulsionPower{1.0, 12.0, "1"};
 inline constexpr Range kRepulsionDamping{0.0, 10.0, "c0/dx"};
 inline constexpr Range kAdhesion{0.0, 1000.0, "m/s^2"};
+inline constexpr Range kLiteralStiffness{1e-6, 1e6, "m^2/s^2"};
+inline constexpr Range kLiteralTension{0.0, 1.0, "N/m"};
+inline constexpr Range kLiteralExponent{0.0, 50.0, "1"};
+inline constexpr Range kLiteralRepulsion{0.0, 1e6, "N m^2"};
+inline constexpr Range kLiteralContact{0.05, 0.5, "spacings"};
 inline constexpr Range kMaxSources{1.0, 256.0, "sources"};
 
-inline constexpr Range kDirection{1e-6, 1e6, "1, its length"};
-inline constexpr Range kSlip{0.0, 1.0, "1"};
+inline constexpr Range kDirection{1e-6, 1e6, ""};
+inline constexpr Range kSlip{0.0, 1.0, ""};
 inline constexpr Range kBowlRadius{1e-4, 10.0, "m"};
 
 inline constexpr Range kPatchLength{1e-5, 0.1, "m"};
@@ -72,7 +77,7 @@ inline constexpr int kMinPolylinePoints = 2;
 inline constexpr int kMaxPatchPoints = 256;
 inline constexpr Range kFlow{0.0, 1000.0, "mL/s"};
 inline constexpr Range kInletPressure{0.0, 1000.0, "mmHg"};
-inline constexpr Range kDischargeCoefficient{0.1, 1.0, "1"};
+inline constexpr Range kDischargeCoefficient{0.1, 1.0, ""};
 
 inline constexpr Range kBlockSpeed{0.0, 100.0, "m/s, its length"};
 inline constexpr Range kJitter{0.0, 0.2, "spacings"};

@@ -23,7 +23,8 @@ void ProblemList::add(std::string_view where, std::string_view what) {
 void ProblemList::requireInRange(std::string_view path, double value, const Range& range) {
   if (!std::isfinite(value) || (value >= range.lower && value <= range.upper)) return;
   const std::string_view hint = value == 0.0 ? "; 0 also stands for a missing field" : "";
-  add(path, fmt::format("value {} is out of range, allowed {} to {} ({}){}", value, range.lower, range.upper, range.unit, hint));
+  const std::string unit = range.unit.empty() ? std::string{} : fmt::format(" ({})", range.unit);
+  add(path, fmt::format("value {} is out of range, allowed {} to {}{}{}", value, range.lower, range.upper, unit, hint));
 }
 
 Status ProblemList::toStatus() const {

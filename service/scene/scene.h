@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "service/sph/world_description.h"
+#include "service/status/request_limits.h"
 #include "service/status/status.h"
 
 namespace bleedsim::scene {
 
 /// Longest scene text that is read, bytes.
-inline constexpr std::size_t kMaxSceneBytes = std::size_t{1} << 20;
+using bleedsim::kMaxSceneBytes;
 
 /// Settings texts of effects by name.
 using SettingsMemory = std::map<std::string, std::string>;

@@ -77,6 +77,34 @@ void validateCompressibility(const Scene& scene, ProblemList& problems) {
 
 }  // namespace
 
+namespace {
+
+void validateLiteral(const Literal& literal, ProblemList& problems) {
+  if (!Literal::Pressure_IsValid(literal.pressure())) {
+    problems.add("literal.pressure",
+                 fmt::format("value {} is unknown, known are SYMMETRIC, VARIATIONAL", static_cast<int>(literal.pressure())));
+  }
+  const auto require = [&problems](bool given, const char* field, double value, const Range& range) {
+    if (given) problems.requireInRange(std::string{"literal."} + field, value, range);
+  };
+  require(literal.has_stiffness_m2_per_s2(), "stiffness_m2_per_s2", literal.stiffness_m2_per_s2(), kLiteralStiffness);
+  require(true, "tension_n_per_m", literal.tension_n_per_m(), kLiteralTension);
+  require(true, "normal_cutoff", literal.normal_cutoff(), kNormalCutoff);
+  require(true, "thickening_pa_s", literal.thickening_pa_s(), kShearViscosity);
+  require(literal.has_thickening_exponent(), "thickening_exponent", literal.thickening_exponent(), kLiteralExponent);
+  require(true, "platelet_diffusivity_m2_per_s", literal.platelet_diffusivity_m2_per_s(), kDiffusivity);
+  require(literal.has_repulsion_n_m2(), "repulsion_n_m2", literal.repulsion_n_m2(), kLiteralRepulsion);
+  require(true, "power_1", literal.power_1(), kRepulsionPower);
+  require(true, "power_2", literal.power_2(), kRepulsionPower);
+  require(true, "contact_radius", literal.contact_radius(), kLiteralContact);
+  if (literal.power_1() <= literal.power_2()) {
+    problems.add("literal.power_1",
+                 fmt::format("value {} must be above power_2, {}: contacts would attract", literal.power_1(), literal.power_2()));
+  }
+}
+
+}  // namespace
+
 void validateDomain(const Scene& scene, ProblemList& problems) {
   const double support = validateResolution(scene, problems);
   if (scene.has_domain()) {
@@ -95,7 +123,9 @@ void validateDomain(const Scene& scene, ProblemList& problems) {
   if (!Scene::Model_IsValid(scene.model())) {
     problems.add("model", fmt::format("value {} is unknown, known are SOUND, LITERAL", static_cast<int>(scene.model())));
   } else if (scene.model() == Scene::LITERAL) {
-    problems.add("model", "LITERAL is not in this version; use SOUND");
+    validateLiteral(scene.literal(), problems);
+  } else if (scene.has_literal()) {
+    problems.add("literal", "holds numbers of the paper's equations; set model LITERAL or leave it out");
   }
 }
 

@@ -56,6 +56,7 @@ void validateValues(const std::string& path, const FluidBlock& block, bool visco
   const Vec3& v = block.velocity_m_per_s();
   problems.requireInRange(path + ".velocity_m_per_s", std::hypot(v.x(), v.y(), v.z()), kBlockSpeed);
   problems.requireInRange(path + ".jitter", block.jitter(), kJitter);
+  if (block.has_platelet()) problems.requireInRange(path + ".platelet", block.platelet(), kPlatelet);
   if (!block.has_viscosity_pa_s()) return;
   problems.requireInRange(path + ".viscosity_pa_s", block.viscosity_pa_s(), kViscosity);
   if (!viscosity_effect) {

@@ -14,7 +14,8 @@ namespace {
 bool sameBody(const WorldDescription& a, const WorldDescription& b) {
   return a.domain.lower == b.domain.lower && a.domain.upper == b.domain.upper && a.domain.periodic == b.domain.periodic &&
          a.capacity == b.capacity && a.spacing == b.spacing && a.support_ratio == b.support_ratio && a.kernel == b.kernel &&
-         a.rest_density == b.rest_density && a.tissue.size() == b.tissue.size() && a.max_wounds == b.max_wounds;
+         a.rest_density == b.rest_density && a.model == b.model && a.planar == b.planar && a.tissue.size() == b.tissue.size() &&
+         a.max_wounds == b.max_wounds;
 }
 
 template <class Real>
@@ -60,6 +61,7 @@ Status WorldCore<Real>::adopt(World& world) {
     std::replace(particles_.inverse_viscosity.data(), particles_.inverse_viscosity.data() + count_, former_default,
                  present_default);
   }
+  takeOrFill(particles_.own_viscosity, theirs.own_viscosity, count_, Real(0));
   takeOrFill(particles_.platelet, theirs.platelet, count_,
              static_cast<Real>(description_.effects.platelets.value_or(PlateletSettings{}).fresh));
   takeOrFill(particles_.radius, theirs.radius, count_, Real(1));

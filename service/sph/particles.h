@@ -13,6 +13,7 @@ struct Particles {
   AlignedArray<Real> x, y, z;            ///< position / h, in the scene's frame
   AlignedArray<Real> vx, vy, vz;         ///< velocity, m/s
   AlignedArray<Real> inverse_viscosity;  ///< 1/(Pa s); empty unless viscosity differs between particles
+  AlignedArray<Real> own_viscosity;      ///< Pa s, of a block that brings one, else 0; empty unless mu changes with time
   AlignedArray<Real> platelet;           ///< P, 0 to 1; empty without platelets
   AlignedArray<Real> radius;             ///< own support radius / h; empty without (34)
   AlignedArray<std::uint32_t> id;        ///< stable, never reused in a world
@@ -23,6 +24,7 @@ struct Particles {
     bool viscosity = false;
     bool platelet = false;
     bool radius = false;
+    bool own_viscosity = false;
   };
 
   Particles() = default;
@@ -38,9 +40,10 @@ struct Particles {
     if (fields.viscosity) inverse_viscosity = AlignedArray<Real>{capacity, lane + 8};
     if (fields.platelet) platelet = AlignedArray<Real>{capacity, lane + 9};
     if (fields.radius) radius = AlignedArray<Real>{capacity, lane + 10};
+    if (fields.own_viscosity) own_viscosity = AlignedArray<Real>{capacity, lane + 11};
   }
 
-  static constexpr unsigned kArrays = 11;
+  static constexpr unsigned kArrays = 12;
 
   void copyOne(std::size_t to, const Particles& source, std::size_t from) {
     x[to] = source.x[from];
@@ -52,13 +55,14 @@ struct Particles {
     id[to] = source.id[from];
     driver[to] = source.driver[from];
     if (!inverse_viscosity.empty()) inverse_viscosity[to] = source.inverse_viscosity[from];
+    if (!own_viscosity.empty()) own_viscosity[to] = source.own_viscosity[from];
     if (!platelet.empty()) platelet[to] = source.platelet[from];
     if (!radius.empty()) radius[to] = source.radius[from];
   }
 
   std::size_t bytes() const {
     std::size_t sum = id.bytes() + driver.bytes();
-    for (const AlignedArray<Real>* array : {&x, &y, &z, &vx, &vy, &vz, &inverse_viscosity, &platelet, &radius})
+    for (const AlignedArray<Real>* array : {&x, &y, &z, &vx, &vy, &vz, &inverse_viscosity, &own_viscosity, &platelet, &radius})
       sum += array->bytes();
     return sum;
   }
@@ -71,6 +75,7 @@ struct Particles {
     vy.swap(other.vy);
     vz.swap(other.vz);
     inverse_viscosity.swap(other.inverse_viscosity);
+    own_viscosity.swap(other.own_viscosity);
     platelet.swap(other.platelet);
     radius.swap(other.radius);
     id.swap(other.id);

@@ -105,7 +105,7 @@ std::uint64_t hashState(const Particles<Real>& p, std::uint32_t count, double ti
   hash.addBytes(&time, sizeof time);
   for (const AlignedArray<Real>* array : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz})
     hash.addBytes(array->data(), count * sizeof(Real));
-  for (const AlignedArray<Real>* array : {&p.inverse_viscosity, &p.platelet, &p.radius})
+  for (const AlignedArray<Real>* array : {&p.inverse_viscosity, &p.own_viscosity, &p.platelet, &p.radius})
     if (!array->empty()) hash.addBytes(array->data(), count * sizeof(Real));
   hash.addBytes(p.id.data(), count * sizeof(std::uint32_t));
   hash.addBytes(p.driver.data(), count * sizeof(std::uint32_t));

@@ -7,6 +7,8 @@
 
 #include "service/sph/effects/effect_list.h"
 #include "service/sph/effects/literal_list.h"
+#include "service/sph/effects/platelets.h"
+#include "service/sph/effects/rheology.h"
 #include "service/sph/seeding.h"
 #include "service/sph/world_checks.h"
 #include "service/sph/world_core.h"
@@ -50,6 +52,15 @@ Status checkEffects(const EffectSettings& effects) {
   if (effects.adhesion && !isFiniteNotNegative(effects.adhesion->acceleration)) {
     return invalid("adhesion must be finite and not negative");
   }
+  if (effects.viscosity) {
+    if (Status status = checkRheology(*effects.viscosity); !status.ok()) return status;
+  }
+  if (effects.platelets) {
+    if (Status status = checkPlatelets(*effects.platelets); !status.ok()) return status;
+    if (effects.viscosity && !(effects.viscosity->viscosity > 0.0)) {
+      return invalid("platelets thicken blood: its viscosity must be greater than 0 Pa s");
+    }
+  }
   if (effects.applied_force && effects.applied_force->max_sources > kMostForceSources) {
     return invalid("applied_force.max_sources is " + std::to_string(effects.applied_force->max_sources) + "; use at most " +
                    std::to_string(kMostForceSources));
@@ -57,12 +68,18 @@ Status checkEffects(const EffectSettings& effects) {
   return {};
 }
 
-Status checkBlock(const FluidBlock& block) {
+Status checkBlock(const FluidBlock& block, const EffectSettings& effects) {
   if (!block.lower.allFinite() || !block.upper.allFinite()) return invalid("a fluid block's corners must be finite");
   if (!block.velocity.allFinite()) return invalid("a fluid block's velocity must be finite");
   if (!isFiniteNotNegative(block.jitter)) return invalid("a fluid block's jitter must be finite and not negative");
   if (block.viscosity && !isFiniteNotNegative(*block.viscosity)) {
     return invalid("a fluid block's viscosity must be finite and not negative");
+  }
+  if (block.viscosity && *block.viscosity == 0.0 && viscosityChanges(effects)) {
+    return invalid("a fluid block's viscosity must be greater than 0 where platelets or a rheology act");
+  }
+  if (block.platelet && !(*block.platelet >= 0.0 && *block.platelet <= 1.0)) {
+    return invalid("a fluid block's platelets must be between 0 and 1");
   }
   return {};
 }
@@ -114,7 +131,7 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   }
   std::uint64_t seeded = 0;
   for (const FluidBlock& block : d.fluid_blocks) {
-    if (Status status = checkBlock(block); !status.ok()) return status;
+    if (Status status = checkBlock(block, d.effects); !status.ok()) return status;
     const auto counts = blockLattice(block, d.spacing);
     std::uint64_t particles = 1;  // bounded after every factor: the product of three could overflow
     for (const std::uint64_t count : counts)

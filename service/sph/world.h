@@ -78,8 +78,8 @@ struct FrameBuffer {
   std::vector<std::uint32_t> id;  ///< count
   std::vector<float> velocity;    ///< 3 x count, m/s
   std::vector<float> density;     ///< count, kg/m^3
-  std::vector<float> viscosity;   ///< count, Pa s
-  std::vector<float> platelet;    ///< count, P, 0 to 1
+  std::vector<float> viscosity;   ///< count, Pa s: that which acts now
+  std::vector<float> platelet;    ///< count, P from 0 to 1; 0 without platelets
   std::vector<float> radius;      ///< count, own support radius, m
 
   void reserve(std::uint32_t capacity, std::uint32_t attributes_wanted);

@@ -72,12 +72,15 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     gravity_ = {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(g.z())};
   }
   if (description.planar) gravity_[2] = Real(0);
+  const EffectSettings& effects = description.effects;
+  if (effects.core_radius) core_radius_.emplace(*effects.core_radius, description.rest_density, options.threads);
   if (description.model == Model::literal) {
     opening_ = 1.0;
     literal_.emplace(description, lattice, speed_of_sound_, viscosityVaries(description), target);
-  }
-  if (const auto& core_radius = description.effects.core_radius) {
-    core_radius_.emplace(*core_radius, description.rest_density, options.threads);
+  } else {
+    if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, target);
+    if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
+    if (effects.platelets) clotting_.emplace(*effects.platelets, description.spacing, description.rest_density, walls_.field());
   }
   if (mayNeedImplicitViscosity(description, speed_of_sound_)) {
     const ViscositySettings& viscosity = *description.effects.viscosity;
@@ -101,8 +104,6 @@ template <class Real>
 Status WorldCore<Real>::populate() {
   JitterSource jitter{description_.seed};
   for (const FluidBlock& block : description_.fluid_blocks) {
-    const double viscosity =
-        block.viscosity.value_or(description_.effects.viscosity ? description_.effects.viscosity->viscosity : 0.0);
     const double layer = block.lower.z() + 0.5 * description_.spacing;  // of a planar world: jitter leaves it
     seedBlock(block, description_.spacing, jitter, [&](const Vec3& position) {
       const std::uint32_t i = count_++;
@@ -113,11 +114,7 @@ Status WorldCore<Real>::populate() {
       particles_.vy[i] = static_cast<Real>(block.velocity.y());
       particles_.vz[i] = static_cast<Real>(block.velocity.z());
       particles_.id[i] = next_id_++;
-      if (!particles_.inverse_viscosity.empty()) particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity);
-      if (!particles_.platelet.empty()) {
-        particles_.platelet[i] = static_cast<Real>(block.platelet.value_or(description_.effects.platelets->fresh));
-      }
-      if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
+      makeBlood(i, block.viscosity, block.platelet);
     });
   }
   injected_ = count_;
@@ -182,16 +179,24 @@ void WorldCore<Real>::emit(double dt) {
     particles_.vz[i] = static_cast<Real>(spawn.state.velocity.z());
     particles_.id[i] = next_id_++;
     particles_.driver[i] = spawn.tag;
-    if (!particles_.inverse_viscosity.empty()) {
-      particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / description_.effects.viscosity->viscosity);
-    }
-    if (!particles_.platelet.empty()) particles_.platelet[i] = static_cast<Real>(description_.effects.platelets->fresh);
-    if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
+    makeBlood(i, std::nullopt, std::nullopt);
     std::fill_n(passes_.acceleration() + std::size_t{i} * 4, 4, Real(0));
     return true;
   });
   unseen_ -= static_cast<std::uint32_t>(step.emitted);
   injected_ += step.emitted;
+}
+
+/// The new particle's own share of the fields that only some scenes have.
+template <class Real>
+void WorldCore<Real>::makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet) {
+  const EffectSettings& effects = description_.effects;
+  if (!particles_.inverse_viscosity.empty()) {
+    particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity.value_or(effects.viscosity->viscosity));
+  }
+  if (!particles_.own_viscosity.empty()) particles_.own_viscosity[i] = static_cast<Real>(viscosity.value_or(0.0));
+  if (!particles_.platelet.empty()) particles_.platelet[i] = static_cast<Real>(platelet.value_or(effects.platelets->fresh));
+  if (!particles_.radius.empty()) particles_.radius[i] = Real(1);
 }
 
 template <class Real>
@@ -239,6 +244,11 @@ void WorldCore<Real>::computeAccelerations() {
   if (literal_) {
     literal_->add(grid_, particles_, passes_, count_, shares_, *executor_);
   } else {
+    if (shear_rate_) shear_rate_->update(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
+    if (rheology_) {
+      const double largest = rheology_->update(particles_, passes_, shearRates(), count_, shares_, *executor_);
+      if (largest > 0.0) limits_.viscous = diffusionLimit(description_, largest / description_.rest_density);
+    }
     const double growth_time = kContactGrowth * description_.spacing / speed_of_sound_;
     passes_.setContactGrowth(static_cast<Real>(std::min(1.0, (time_ - repulsion_start_) / growth_time)));
     passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
@@ -276,6 +286,9 @@ void WorldCore<Real>::finishStep(double dt) {
   if (faulted_) return;
   if (solving_viscosity_ && dt > 0.0) solveViscosity(dt);
   if (literal_) literal_->diffuse(particles_, passes_, static_cast<Real>(dt), count_, shares_, *executor_);
+  if (clotting_) {
+    clotting_->advance(particles_, passes_, shearRates(), walls_, grid_, static_cast<Real>(dt), count_, shares_, *executor_);
+  }
   if (core_radius_ && dt > 0.0) {
     passes_.setReach(core_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
   }
@@ -407,6 +420,7 @@ MemoryUse WorldCore<Real>::memory() const {
   use.lists = passes_.listBytes();
   use.grid = grid_.bytes();
   use.tissue = walls_.bytes();
+  if (shear_rate_) use.effects += shear_rate_->bytes();
   if (implicit_viscosity_) use.effects += implicit_viscosity_->bytes();
   if (surface_tension_) use.effects += surface_tension_->bytes();
   return use;

@@ -11,6 +11,9 @@
 #include "service/sph/effects/core_radius.h"
 #include "service/sph/effects/implicit_viscosity.h"
 #include "service/sph/effects/literal_forces.h"
+#include "service/sph/effects/platelets.h"
+#include "service/sph/effects/rheology.h"
+#include "service/sph/effects/shear_rate.h"
 #include "service/sph/effects/surface_tension.h"
 #include "service/sph/executor.h"
 #include "service/sph/integrate/kick_drift.h"
@@ -71,6 +74,8 @@ class WorldCore final : public World {
   void solveViscosity(double dt);
   void chooseTimeStep(double before);
 
+  const Real* shearRates() const { return shear_rate_ ? shear_rate_->data() : nullptr; }
+  void makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet);
   Bounds<Real> boundsOf() const;
   void chooseShares();
   void withdraw(const Throat& throat);
@@ -97,6 +102,9 @@ class WorldCore final : public World {
   std::optional<AppliedForce<Real>> applied_force_;
   std::optional<LiteralForces<Real>> literal_;
   std::optional<CoreRadius<Real>> core_radius_;
+  std::optional<ShearRate<Real>> shear_rate_;
+  std::optional<EffectiveViscosity<Real>> rheology_;
+  std::optional<Clotting<Real>> clotting_;
   std::optional<ImplicitViscosity<Real>> implicit_viscosity_;
   bool solving_viscosity_ = false;  // implicitly, in this step
   int viscosity_iterations_ = 0;

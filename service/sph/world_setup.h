@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <type_traits>
 
 #include "service/sph/effects/pair_set.h"
+#include "service/sph/effects/rheology.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/literal_model.h"
 #include "service/sph/passes/pair_passes.h"
@@ -36,8 +38,7 @@ std::optional<LatticeFactors<Real>> latticeFactors(const WorldDescription& descr
 inline bool viscosityVaries(const WorldDescription& description) {
   const EffectSettings& effects = description.effects;
   if (!effects.viscosity) return false;
-  if (effects.platelets || effects.core_radius) return true;
-  if (!std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology)) return true;
+  if (viscosityChanges(effects) || effects.core_radius) return true;
   for (const FluidBlock& block : description.fluid_blocks) {
     if (block.viscosity && *block.viscosity != effects.viscosity->viscosity) return true;
   }
@@ -58,25 +59,34 @@ inline PairSet pairSet(const WorldDescription& description) {
   return set;
 }
 
-/// The largest viscosity of any particle, Pa s; 0 without the effect.
+/// The largest viscosity that any particle can have at the start, Pa s; 0 without the effect. Where viscosity changes, the time
+/// step then follows that of the moment.
 inline double largestViscosity(const WorldDescription& description) {
-  if (!description.effects.viscosity) return 0.0;
+  const EffectSettings& effects = description.effects;
+  if (!effects.viscosity) return 0.0;
   if (description.model == Model::literal) return largestLiteralViscosity(description);
-  double largest = description.effects.viscosity->viscosity;
-  for (const FluidBlock& block : description.fluid_blocks) largest = std::max(largest, block.viscosity.value_or(0.0));
+  const auto clotted = [&](double fresh, std::optional<double> platelet) {
+    if (!effects.platelets) return fresh;
+    return thickened(fresh, effects.platelets->clot_viscosity, platelet.value_or(effects.platelets->fresh));
+  };
+  const double rest = viscosityAtRest<double>(*effects.viscosity);
+  double largest = clotted(rest, std::nullopt);
+  for (const FluidBlock& block : description.fluid_blocks) {
+    largest = std::max(largest, clotted(block.viscosity.value_or(rest), block.platelet));
+  }
   return largest;
+}
+
+/// 0.045 h^2/nu, s: 0.06 goes unstable at walls; nu > 0 in m^2/s.
+inline double diffusionLimit(const WorldDescription& description, double nu) {
+  const double h = description.supportRadius() * radiusBounds(description).smallest;
+  return 0.045 * h * h / nu;
 }
 
 /// The largest viscosity that any particle can come to have, Pa s: by its block, at rest, or clotted.
 inline double largestPossibleViscosity(const WorldDescription& description) {
   if (!description.effects.viscosity) return 0.0;
   double largest = largestViscosity(description);
-  const Rheology& rheology = description.effects.viscosity->rheology;
-  if (const auto* carreau = std::get_if<CarreauYasudaRheology>(&rheology)) largest = std::max(largest, carreau->zero_shear);
-  if (const auto* casson = std::get_if<CassonRheology>(&rheology)) {
-    const double root = std::sqrt(casson->viscosity) + std::sqrt(casson->yield_stress / casson->regularisation_shear_rate);
-    largest = std::max(largest, root * root);
-  }
   if (description.effects.platelets) largest = std::max(largest, description.effects.platelets->clot_viscosity);
   return largest;
 }
@@ -88,8 +98,7 @@ inline bool mayNeedImplicitViscosity(const WorldDescription& description, double
   if (description.model == Model::literal || description.planar) return false;
   if (description.kernel != KernelType::wendland_c2) return false;  // its sweeps are compiled for one kernel
   if (viscosity->solve == ViscositySolve::implicit) return true;
-  const double h = description.supportRadius() * radiusBounds(description).smallest;
-  const double viscous = 0.045 * h * h * description.rest_density / largestPossibleViscosity(description);
+  const double viscous = diffusionLimit(description, largestPossibleViscosity(description) / description.rest_density);
   return viscous < 0.4 * description.spacing / speed_of_sound;
 }
 
@@ -110,8 +119,7 @@ inline TimeStepLimits timeStepLimits(const WorldDescription& description, double
   limits.speed_of_sound = speed_of_sound;
   limits.scene = description.max_dt;
   const double viscosity = largestViscosity(description);
-  const double h = description.supportRadius() * radiusBounds(description).smallest;
-  if (viscosity > 0.0) limits.viscous = 0.045 * h * h * description.rest_density / viscosity;
+  if (viscosity > 0.0) limits.viscous = diffusionLimit(description, viscosity / description.rest_density);
   if (description.model == Model::literal) {
     limits.scene = std::min(limits.scene, literalTimeStep(description, speed_of_sound));
     return limits;
@@ -120,6 +128,9 @@ inline TimeStepLimits timeStepLimits(const WorldDescription& description, double
   if (const auto& tension = description.effects.surface_tension; tension && tension->coefficient > 0.0) {
     const double spacing3 = description.particleVolume();
     limits.capillary = 0.25 * std::sqrt(description.rest_density * spacing3 / (2.0 * std::numbers::pi * tension->coefficient));
+  }
+  if (const auto& platelets = description.effects.platelets; platelets && platelets->diffusivity > 0.0) {
+    limits.diffusive = diffusionLimit(description, platelets->diffusivity);
   }
   return limits;
 }
@@ -191,7 +202,14 @@ inline PairLayout pairLayout(const WorldDescription& description) {
 /// The arrays that a description calls for.
 template <class Real>
 typename Particles<Real>::Fields particleFields(const WorldDescription& description) {
-  return {viscosityVaries(description), description.effects.platelets.has_value(), description.effects.core_radius.has_value()};
+  typename Particles<Real>::Fields fields;
+  fields.viscosity = viscosityVaries(description);
+  fields.platelet = description.effects.platelets.has_value();
+  fields.radius = description.effects.core_radius.has_value();
+  for (const FluidBlock& block : description.fluid_blocks) {
+    fields.own_viscosity = fields.own_viscosity || (block.viscosity && viscosityChanges(description.effects));
+  }
+  return fields;
 }
 
 template <class Real>

@@ -109,7 +109,7 @@ std::uint64_t counterOf(const sph::World& world, sph::Counter counter) {
 }
 
 sph::FrameBuffer frameOf(const sph::World& world) {
-  constexpr std::uint32_t kAll = sph::kFrameVelocity | sph::kFrameDensity | sph::kFrameViscosity;
+  constexpr std::uint32_t kAll = sph::kFrameVelocity | sph::kFrameDensity | sph::kFrameViscosity | sph::kFramePlatelet;
   sph::FrameBuffer frame;
   frame.reserve(world.description().capacity, kAll);
   world.copyFrame(frame, kAll);
@@ -118,6 +118,7 @@ sph::FrameBuffer frameOf(const sph::World& world) {
   frame.id.resize(frame.count);
   frame.density.resize(frame.count);
   frame.viscosity.resize(frame.count);
+  frame.platelet.resize(frame.count);
   return frame;
 }
 

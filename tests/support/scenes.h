@@ -44,7 +44,7 @@ std::unique_ptr<sph::World> makeWorld(const sph::WorldDescription& description, 
 sph::WorldStats statsOf(const sph::World& world);
 std::uint64_t counterOf(const sph::World& world, sph::Counter counter);
 
-/// A frame with velocity, density and viscosity, its buffers cut to the particles that it holds.
+/// A frame with velocity, density, viscosity and platelets, its buffers cut to the particles that it holds.
 sph::FrameBuffer frameOf(const sph::World& world);
 
 sph::Vec3 positionOf(const sph::FrameBuffer& frame, std::size_t particle);  ///< m

@@ -12,15 +12,21 @@ struct EffectRow {
   bool (*enabled)(const EffectSettings& settings);
 };
 
-inline constexpr std::array<EffectRow, 8> kEffects{{
+inline constexpr std::array<EffectRow, 9> kEffects{{
     {{"gravity", "F of (9)", "the paper", "none"}, [](const EffectSettings& s) { return s.gravity.has_value(); }},
     {{"pressure", "(16)(17)(19)(20)", "Monaghan 1992; Wendland 1995",
       "(16) by default, (17) on request; Wendland C2, or a cubic spline, for density and gradient instead of poly6 and spiky; p "
       ">= 0"},
      [](const EffectSettings& s) { return s.pressure.has_value(); }},
-    {{"viscosity", "(25)", "Brookshaw 1985; Morris 1997; Cleary & Monaghan 1999",
-      "Brookshaw form with harmonic mean, calibrated on the rest lattice, instead of the Laplacian of (33)"},
+    {{"viscosity", "(25)", "Brookshaw 1985; Morris 1997; Cleary & Monaghan 1999; Cho & Kensey 1991; Casson 1959",
+      "Brookshaw form with harmonic mean, calibrated on the rest lattice, instead of the Laplacian of (33); Newtonian, "
+      "Carreau-Yasuda or Casson"},
      [](const EffectSettings& s) { return s.viscosity.has_value(); }},
+    {{"platelets", "(26)(27)", "Brookshaw 1985; bleedsim",
+      "reciprocal diffusion instead of (33); sinks by activation, tissue and air, without which nothing clots; a of (26) from "
+      "the "
+      "fresh viscosity"},
+     [](const EffectSettings& s) { return s.platelets.has_value(); }},
     {{"core_radius", "(34)", "the paper; Hernquist & Katz 1989",
       "bounded, relaxed over steps, blind to 15 % of density, kernels averaged over a pair, calibrated on the rest lattice at "
       "each radius"},

@@ -6,6 +6,7 @@
 #define BLEEDSIM_SPH_PASSES_MAKE_SWEEPS_INL_H_
 #endif
 
+#include "service/sph/effects/shear_rate-inl.h"
 #include "service/sph/effects/tension_sweeps-inl.h"
 #include "service/sph/effects/viscous_product-inl.h"
 #include "service/sph/passes/list_sweep-inl.h"
@@ -17,6 +18,7 @@ namespace bleedsim::sph::HWY_NAMESPACE {
 template <class L, bool kPeriodic, bool kRadius>
 constexpr SweepTable<typename L::Scalar> makeSweeps() {
   SweepTable<typename L::Scalar> table;
+  table.shear_rate = &ListSweep<L, WendlandC2, kPeriodic, kRadius, ShearMoments<L>>::run;
   table.viscous_product = &ListSweep<L, WendlandC2, kPeriodic, kRadius, ViscousProduct<L, true>>::run;
   if constexpr (!kRadius)
     table.uniform_viscous_product = &ListSweep<L, WendlandC2, kPeriodic, false, ViscousProduct<L, false>>::run;

@@ -112,6 +112,7 @@ void TissueField<Real>::addPlane(const Plane& plane, Real distance, const Own& o
   term.share = share.share;
   addScaled(term.gradient, share.slope, term.normal);
   term.friction = frictionOf(share, distance) * plane.grip;
+  term.grip = plane.grip;
   terms.add(term);
 }
 
@@ -143,6 +144,7 @@ void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Re
   term.gradient = {full * slope[0] * filled[1] * filled[2], full * filled[0] * slope[1] * filled[2],
                    full * filled[0] * filled[1] * slope[2]};
   term.friction = scaledFriction(term.share, nearest.value, own) * obstacle.grip;
+  term.grip = obstacle.grip;
   terms.add(term);
 }
 
@@ -182,6 +184,7 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, const 
     }
   }
   term.friction = scaledFriction(term.share, nearest.value, own) * bowl.grip;
+  term.grip = bowl.grip;
   terms.add(term);
 }
 
@@ -226,6 +229,7 @@ bool TissueField<Real>::sample(Real x, Real y, Real z, WallSample<Real>& out, Re
     if (term.distance >= out.distance) continue;
     out.distance = term.distance;
     out.normal = term.normal;
+    out.grip = term.grip;
   }
   out.friction = std::min(out.friction, Real{0});
   return true;

@@ -27,6 +27,7 @@ struct WallSample {
   std::array<Real, 3> gradient{};  ///< grad L, 1/m: pressure adds a_i = -rho0 (p_i/rho_i^2) grad L
   Real friction = 0;               ///< <= 0, 1/m^2, slip included: a_i = (mu/rho_i) friction (v_i - v_wall); mu calibrated
   std::array<Real, 3> spring{};    ///< 1/m: a_i = c0^2 spring
+  Real grip = 1;                   ///< 1 - slip of the nearest wall
 };
 
 /// All lengths in metres. Immutable; any number of threads may ask at once. No function allocates but create().
@@ -46,6 +47,9 @@ class TissueField {
   /// False, and `out` untouched, if no wall is within the largest support radius (a NaN position is within reach of none). Points
   /// inside tissue are. `radius`: the particle's own support radius over h.
   bool sample(Real x, Real y, Real z, WallSample<Real>& out, Real radius = Real(1)) const;
+
+  /// L of a plane at phi = d, without edges and curvature; there must be tissue.
+  Real planeShareAt(Real d) const { return plane_table_->at(d).share; }
 
   /// The smallest phi of all walls, m; infinity without tissue.
   Real distance(Real x, Real y, Real z) const;

@@ -21,6 +21,7 @@ struct WallTerm {
   Real share = 0;                  ///< L_k
   std::array<Real, 3> gradient{};  ///< grad L_k, 1/m
   Real friction = 0;               ///< 1/m^2, <= 0
+  Real grip = 1;                   ///< 1 - slip
 };
 
 /// The walls that a particle touches. More than kMost at once are not resolved: the nearest ones count.

@@ -76,10 +76,12 @@ class WallEffects {
     });
   }
 
-  /// Calls visit(particle, wall, closed) for the particles of a share that sample() found near tissue, in storage order. `closed`
-  /// is 1 less what an open wound takes of the tissue there.
+  /// Calls visit(particle, wall, closed) for the particles of a share that touch tissue, by rising index. A share is that of the
+  /// grid's rows in sample(), which must have been called with as many `shares`. `closed` is 1 less what an open wound takes of the
+  /// tissue there.
   template <class Visit>
   void forEachTouching(int share, Visit&& visit) const {
+    if (field_.empty()) return;
     const Touching* list = touching_[static_cast<std::size_t>(share)].data();
     for (std::uint32_t k = 0; k < counts_[static_cast<std::size_t>(share)].touching; ++k) {
       visit(list[k].particle, list[k].wall, list[k].closed);

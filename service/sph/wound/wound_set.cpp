@@ -35,7 +35,7 @@ Result<std::uint32_t> WoundSet::add(const WoundDescription& wound) {
     return Status{StatusCode::capacity, textOf("there are already ", wounds_.size(), " wounds, the most that this scene allows ",
                                                "(max_wounds); remove one first or load a scene with more")};
   }
-  if (Status status = checkNameAndDrive(wound); !status) return status;
+  if (Status status = checkNameAndDrive(wound, 0); !status) return status;
   Result<Opening> opening = planOpening(wound);
   if (!opening) return opening.status();
   Throat throat{freeSlot(), opening->frame, opening->patch, spacing_, support_radius_};
@@ -64,7 +64,7 @@ Status WoundSet::update(const UpdateWound& change, const WithdrawThroat& withdra
   if (change.shape) next.shape = *change.shape;
   if (change.drive) next.drive = *change.drive;
 
-  if (Status status = checkNameAndDrive(next); !status) return status;
+  if (Status status = checkNameAndDrive(next, wound.id); !status) return status;
   std::optional<Throat> reopened;
   const WoundDescription& now = wound.description;
   if (next.position != now.position || next.normal != now.normal || next.tangent != now.tangent || change.shape) {
@@ -147,9 +147,14 @@ Status WoundSet::unknown(std::uint32_t id) const {
           textOf("there is no wound ", id, "; ", wounds_.empty() ? "there are no wounds" : "the wounds now are " + known)};
 }
 
-Status WoundSet::checkNameAndDrive(const WoundDescription& wound) const {
+Status WoundSet::checkNameAndDrive(const WoundDescription& wound, std::uint32_t except_id) const {
   if (wound.name.size() > kMaxNameLength) {
     return invalid(textOf("wound name has ", wound.name.size(), " bytes; at most ", kMaxNameLength, " are allowed"));
+  }
+  for (const Wound& other : wounds_) {
+    if (wound.name.empty() || other.id == except_id || other.description.name != wound.name) continue;
+    return invalid(
+        textOf("wound name '", wound.name, "' is already that of wound ", other.id, "; give each wound its own or none"));
   }
   return checkDrive(wound.drive);
 }

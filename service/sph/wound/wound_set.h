@@ -94,7 +94,7 @@ class WoundSet {
 
   std::size_t indexOf(std::uint32_t id) const;
   Status unknown(std::uint32_t id) const;
-  Status checkNameAndDrive(const WoundDescription& wound) const;
+  Status checkNameAndDrive(const WoundDescription& wound, std::uint32_t except_id) const;
   Result<Opening> planOpening(const WoundDescription& wound) const;
   Throat::Start startAfter(const Throat& before, const Opening& opening) const;
   Status checkInside(const Opening& opening) const;

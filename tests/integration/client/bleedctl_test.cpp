@@ -128,6 +128,37 @@ TEST_F(BleedctlTest, ASilentSessionHasCodeThree) {
   EXPECT_EQ(bleedctl({"pause", "--timeout", "1"}).code, 3);
 }
 
+class BleedctlSignalTest : public BleedctlTest, public testing::WithParamInterface<int> {};
+
+TEST_P(BleedctlSignalTest, EndsACommandThatWaitsForItsReply) {
+  const auto service = serve("one", [](const bleed_v1_Request&, bleed_v1_Reply&) { return false; });
+  test::ChildProcess pause{command({"pause", "--timeout", "600"})};
+  ASSERT_TRUE(service->waitRequests(1));
+  pause.signal(GetParam());
+  EXPECT_EQ(pause.wait(), 130) << pause.output();
+}
+
+TEST_P(BleedctlSignalTest, EndsACommandThatWaitsForItsSession) {
+  test::ChildProcess pause{command({"pause", "--session", "nowhere", "--timeout", "600"})};
+  auto status = transport::Writer<bleed_v1_Status>::create(*participant_, "another");
+  ASSERT_TRUE(status.ok());
+  auto waits = transport::WaitSet::create(*participant_);
+  ASSERT_TRUE(waits.ok() && waits->attachMatches(*status, 0).ok());
+  while (status->matchedCount() == 0) ASSERT_TRUE(waits->wait(test::kPatience).ok());
+  pause.signal(GetParam());
+  EXPECT_EQ(pause.wait(), 130) << pause.output();
+}
+
+TEST_P(BleedctlSignalTest, EndsACommandThatWaitsForItsSessionToEnd) {
+  const auto service = serve("one");
+  test::ChildProcess shutdown{command({"shutdown", "--timeout", "600"})};
+  ASSERT_TRUE(shutdown.waitForOutput("shut down"));
+  shutdown.signal(GetParam());
+  EXPECT_EQ(shutdown.wait(), 130) << shutdown.output();
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, BleedctlSignalTest, testing::Values(SIGINT, SIGTERM));
+
 TEST_F(BleedctlTest, WatchPrintsFiguresUntilItIsInterrupted) {
   const auto service = serve("one");
   test::ChildProcess watch{command({"watch", "--json"}), false};

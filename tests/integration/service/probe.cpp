@@ -138,7 +138,7 @@ bleed_v1_Reply Probe::askAs(std::uint64_t seq, const bleed_v1_RequestBody& body)
   return {};
 }
 
-void Probe::sendInstrument(std::uint64_t seq) {
+void Probe::sendInstrument(std::uint64_t seq, const std::function<void(bleed_v1_Instrument&)>& spoil) {
   bleed_v1_Instrument sample{};
   transport::copyUuid(client_, sample.client);
   sample.seq = seq;
@@ -147,7 +147,17 @@ void Probe::sendInstrument(std::uint64_t seq) {
   sample.orientation.w = 1.0;
   sample.tip_radius_m = 0.01;
   sample.force = {0.0, 0.0, 1e-4};
+  if (spoil) spoil(sample);
   EXPECT_TRUE(instruments_->write(sample).ok());
+}
+
+void Probe::matchInstruments() {
+  auto wait_set = need(transport::WaitSet::create(participant_));
+  EXPECT_TRUE(wait_set.attachMatches(*instruments_, 0).ok());
+  while (instruments_->matchedCount() == 0) {
+    const auto woken = wait_set.wait(test::kPatience);
+    if (!woken) FAIL() << "nobody reads instruments";
+  }
 }
 
 FrameHead Probe::frame(const std::function<bool(const FrameHead&)>& fits) {

@@ -86,7 +86,10 @@ class Probe {
   bleed_v1_Reply askAs(std::uint64_t seq, const bleed_v1_RequestBody& body);
   bleed_v1_Reply ask(std::uint32_t kind, const Body& fill = {}) { return ask(body(kind, fill)); }
 
-  void sendInstrument(std::uint64_t seq);
+  /// A good sample, unless `spoil` makes it a bad one.
+  void sendInstrument(std::uint64_t seq, const std::function<void(bleed_v1_Instrument&)>& spoil = {});
+  /// Waits until the session reads instruments: nothing that is sent then is lost.
+  void matchInstruments();
   void dropInstrumentWriter() { instruments_.reset(); }
 
   /// Waits for one that fits; fails the test when none comes.

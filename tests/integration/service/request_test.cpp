@@ -56,7 +56,25 @@ TEST_F(ServiceTest, RefusedRequestsLeaveTheStateAsItWas) {
   Probe probe{domain(), "bad"};
   ASSERT_EQ(probe.ask(bleed_v1_REQUEST_PAUSE).code, static_cast<std::uint32_t>(bleed_v1_REPLY_ACCEPTED));
   const std::uint64_t undisturbed = probe.hashAfterReset(300, {});
+  std::string unknown_field = "name: 'x' nonsense { }";
+  std::string not_finite = smallScene();
+  not_finite.replace(not_finite.find("flow_ml_per_s: 1.5"), 18, "flow_ml_per_s: nan");
+  const auto load = [](std::string& text) {
+    return Probe::body(bleed_v1_REQUEST_LOAD_SCENE, [&text](auto& body) { body._u.load_scene.text = text.data(); });
+  };
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<std::function<void(bleed_v1_Instrument&)>> bad_instruments{
+      [](auto& tool) { tool.position.x = kNaN; },         [](auto& tool) { tool.position.z = kInfinity; },
+      [](auto& tool) { tool.position.y = -1e9; },         [](auto& tool) { tool.force.x = kNaN; },
+      [](auto& tool) { tool.force.y = -kInfinity; },      [](auto& tool) { tool.force.z = 1e9; },
+      [](auto& tool) { tool.tip_radius_m = kNaN; },       [](auto& tool) { tool.tip_radius_m = kInfinity; },
+      [](auto& tool) { tool.tip_radius_m = 1e9; },        [](auto& tool) { tool.tip_radius_m = 0.0; },
+      [](auto& tool) { tool.tip_radius_m = -0.01; },      [](auto& tool) { tool.orientation.w = kNaN; },
+      [](auto& tool) { tool.orientation.x = kInfinity; }, [](auto& tool) { tool.name[0] = '\n'; },
+      [](auto& tool) { tool.name[0] = '\xff'; }};
   std::vector<bleed_v1_RequestBody> bad{
+      load(unknown_field),
+      load(not_finite),
       wound(kNaN),
       wound(std::numeric_limits<double>::infinity()),
       wound(1e9),
@@ -77,6 +95,12 @@ TEST_F(ServiceTest, RefusedRequestsLeaveTheStateAsItWas) {
       EXPECT_NE(reply.code, static_cast<std::uint32_t>(bleed_v1_REPLY_ACCEPTED)) << "request " << body._d;
       EXPECT_STRNE(reply.reason, "");
     }
+    probe.matchInstruments();
+    std::uint64_t seq = 0;
+    for (const auto& spoil : bad_instruments) probe.sendInstrument(++seq, spoil);
+    probe.status([&](const StatusHead& status) { return status.counter("instrument_samples") == bad_instruments.size(); });
+    const StatusHead status = probe.status();
+    EXPECT_EQ(status.counter("instruments_malformed"), bad_instruments.size());
   });
   EXPECT_EQ(after, undisturbed);
   const std::uint64_t pushed = probe.hashAfterReset(300, [&] { probe.ask(wound(0.015)); });

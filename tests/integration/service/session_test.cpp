@@ -4,6 +4,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <poll.h>
+#include <sys/wait.h>
 
 #include "tests/integration/service/probe.h"
 
@@ -37,6 +38,26 @@ TEST_F(ServiceTest, OfTwoDaemonsThatStartTogetherExactlyOneStays) {
   EXPECT_EQ(status.state, static_cast<std::uint32_t>(bleed_v1_STATE_RUNNING));
 }
 
+// Neither hears the other while the first is stopped, so both are established when they meet.
+TEST_F(ServiceTest, OfTwoEstablishedDaemonsTheOlderStays) {
+  const auto established = [](pid_t pid) {
+    return [pid](const StatusHead& head) { return head.pid == pid && head.heartbeat > 12; };
+  };
+  test::ChildProcess first{daemonCommand("again")};
+  Probe probe{domain(), "again"};
+  probe.status(established(first.pid()));
+  first.signal(SIGSTOP);
+  siginfo_t stopped{};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(first.pid()), &stopped, WSTOPPED | WNOWAIT), 0);
+  test::ChildProcess second{daemonCommand("again")};
+  const StatusHead seen = probe.status(established(second.pid()));
+  first.signal(SIGCONT);
+  EXPECT_EQ(second.wait(), 3) << "both stayed";
+  EXPECT_THAT(second.output(), HasSubstr(std::to_string(first.pid())));
+  const std::uint64_t step = probe.frame([&](const FrameHead& frame) { return frame.session != seen.session; }).step;
+  probe.frame([&](const FrameHead& frame) { return frame.session != seen.session && frame.step > step; });
+}
+
 class SignalTest : public ServiceTest, public testing::WithParamInterface<int> {};
 
 TEST_P(SignalTest, EndsTheDaemonCleanly) {
@@ -64,7 +85,7 @@ TEST_F(ServiceTest, EndsAfterItsDuration) {
 
 TEST_F(ServiceTest, AMissingInterfaceIsNamedWithTheExistingOnes) {
   test::ChildProcess daemon{daemonCommand("none", {"--interface", "nosuch9"})};
-  EXPECT_EQ(daemon.wait(), 1);
+  EXPECT_EQ(daemon.wait(), 2);
   EXPECT_THAT(daemon.output(), testing::AllOf(HasSubstr("nosuch9"), HasSubstr("lo")));
 }
 

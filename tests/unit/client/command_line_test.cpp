@@ -59,11 +59,31 @@ TEST(CommandLine, AnswersWrongUseWithCodeTwo) {
   EXPECT_EQ(run({"wound", "set", "4"}), 2);
   EXPECT_EQ(run({"pace", "fast"}), 2);
   EXPECT_EQ(run({"pace", "-1"}), 2);
+  EXPECT_EQ(run({"pace", "1001"}), 2);
+  EXPECT_EQ(run({"pace", "0.00001"}), 2);
   EXPECT_EQ(run({"step", "0"}), 2);
+  EXPECT_EQ(run({"step", "10000001"}), 2);
   EXPECT_EQ(run({"watch", "--count", "-1"}), 2);
   EXPECT_EQ(run({"effect"}), 2);
   EXPECT_EQ(run({"effect", "on"}), 2);
   EXPECT_EQ(run({"effect", "off", "viscosity", "--set", "viscosity_pa_s: 1"}), 2);
+}
+
+TEST(CommandLine, NoFloatingOptionTakesAnythingButFiniteNumbers) {
+  for (const char* value : {"nan", "-nan", "inf", "-inf", "1e999", "", "x"}) {
+    EXPECT_EQ(run({"--timeout", value, "list"}), 2) << value;
+    EXPECT_EQ(run({"record", "-o", "/nosuch/file", "--duration", value}), 2) << value;
+    EXPECT_EQ(run({"record", "-o", "/nosuch/file", "--rate", value}), 2) << value;
+    EXPECT_EQ(run({"pace", value}), 2) << value;
+    EXPECT_EQ(run({"wound", "add", "--at", "0,0,0", "--radius-mm", value, "--flow-ml-per-s", "1"}), 2) << value;
+    EXPECT_EQ(run({"wound", "add", "--at", "0,0,0", "--radius-mm", "1", "--flow-ml-per-s", value}), 2) << value;
+    EXPECT_EQ(run({"wound", "add", "--at", "0,0,0", "--radius-mm", "1", "--pressure-mmhg", value}), 2) << value;
+    EXPECT_EQ(run({"wound", "set", "1", "--radius-mm", value}), 2) << value;
+    EXPECT_EQ(run({"wound", "set", "1", "--flow-ml-per-s", value}), 2) << value;
+    EXPECT_EQ(run({"wound", "set", "1", "--pressure-mmhg", value}), 2) << value;
+    EXPECT_EQ(run({"force", "--at", "0,0,0", "--radius-mm", value, "--newtons", "0,0,1"}), 2) << value;
+    EXPECT_EQ(run({"force", "--at", "0,0,0", "--radius-mm", "1", "--newtons", "0,0,1", "--duration", value}), 2) << value;
+  }
 }
 
 TEST(CommandLine, HelpAndVersionSucceedForEveryCommand) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "service/status/request_limits.h"
+
 namespace bleedsim::client {
 namespace {
 
@@ -54,9 +56,23 @@ TEST(RequestBuilder, RefusesWhatTheWireCannotCarry) {
   both.pressure_mmhg = 1.0;
   EXPECT_EQ(buildUpdateWound(1, both).status().code(), StatusCode::invalid_argument);
   EXPECT_EQ(buildLoadScene(std::string("a\0b", 3)).status().code(), StatusCode::invalid_argument);
+  EXPECT_TRUE(buildLoadScene(std::string(kMaxSceneBytes, ' ')).ok());
+  EXPECT_EQ(buildLoadScene(std::string(kMaxSceneBytes + 1, ' ')).status().code(), StatusCode::invalid_argument);
   OutputSpec output;
   output.attributes = {"velocity", "colour"};
   EXPECT_EQ(buildOutput(output).status().code(), StatusCode::invalid_argument);
+}
+
+TEST(RequestBuilder, RefusesANameThatIsNotPrintableUtf8) {
+  for (const char* name : {"caf\xe9", "a\nb", "\xc0\xaf", "\xed\xa0\x80", "cut \xe2\x82"}) {
+    const auto added = buildAddWound({.name = name});
+    EXPECT_EQ(added.status().code(), StatusCode::invalid_argument) << name;
+    EXPECT_NE(added.status().message().find("byte "), std::string::npos) << added.status().message();
+    WoundChange change;
+    change.name = name;
+    EXPECT_EQ(buildUpdateWound(1, change).status().code(), StatusCode::invalid_argument) << name;
+  }
+  EXPECT_TRUE(buildAddWound({.name = "caf\xc3\xa9"}).ok());
 }
 
 TEST(RequestBuilder, NamesAttributesAsBits) {

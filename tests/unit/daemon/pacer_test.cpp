@@ -5,6 +5,7 @@
 namespace bleedsim::daemon {
 namespace {
 
+using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr TimePoint kStart{seconds{50}};
@@ -19,7 +20,7 @@ TEST(Pacer, TellsHowFarAheadAStateIs) {
 }
 
 TEST(Pacer, ScalesByTheFactor) {
-  const Pacer pacer{{dds::PaceMode::factor, 0.5}, kStart};
+  Pacer pacer{{dds::PaceMode::factor, 0.5}, kStart};
   EXPECT_DOUBLE_EQ(pacer.secondsAhead(kStart, 1.0), 2.0);
   EXPECT_DOUBLE_EQ(pacer.realTimeFactor(kStart + seconds{4}, 2.0), 0.5);
 }
@@ -30,10 +31,40 @@ TEST(Pacer, OwesTimeForEver) {
 }
 
 TEST(Pacer, NeverWaitsNorOwesAtMaximum) {
-  const Pacer pacer{{dds::PaceMode::maximum, 1.0}, kStart};
+  Pacer pacer{{dds::PaceMode::maximum, 1.0}, kStart};
   EXPECT_EQ(pacer.secondsAhead(kStart, 100.0), 0.0);
   EXPECT_EQ(pacer.behind(kStart + seconds{100}, 0.0), 0.0);
   EXPECT_DOUBLE_EQ(pacer.realTimeFactor(kStart + seconds{2}, 6.0), 3.0);
+}
+
+TEST(Pacer, ShowsTheFactorOfTheLastSecond) {
+  Pacer pacer{{dds::PaceMode::maximum, 1.0}, kStart};
+  constexpr milliseconds kStep{30};
+  TimePoint now = kStart;
+  double time = 0.0;
+  const auto run = [&](seconds duration, double factor) {
+    double shown = 0.0;
+    for (const TimePoint end = now + duration; now < end;) {
+      now += kStep;
+      time += factor * std::chrono::duration<double>{kStep}.count();
+      shown = pacer.realTimeFactor(now, time);
+    }
+    return shown;
+  };
+  EXPECT_NEAR(run(seconds{600}, 3.0), 3.0, 1e-9);
+  EXPECT_NEAR(run(seconds{2}, 0.25), 0.25, 1e-9) << "ten minutes before it do not count";
+  pacer.pause(now, time);
+  EXPECT_NEAR(pacer.realTimeFactor(now + seconds{50}, time), 0.25, 1e-9);
+  pacer.resume(now + seconds{50}, time);
+  now += seconds{50};
+  EXPECT_NEAR(run(seconds{2}, 4.0), 4.0, 1e-9);
+}
+
+TEST(Pacer, CountsAStepLongerThanASecondAsAWhole) {
+  Pacer pacer{kRealTime, kStart};
+  EXPECT_DOUBLE_EQ(pacer.realTimeFactor(kStart + seconds{1}, 1.0), 1.0);
+  EXPECT_DOUBLE_EQ(pacer.realTimeFactor(kStart + seconds{2}, 2.0), 1.0);
+  EXPECT_DOUBLE_EQ(pacer.realTimeFactor(kStart + seconds{12}, 3.0), 0.1);
 }
 
 TEST(Pacer, StopsTheClockInAPause) {

@@ -73,7 +73,10 @@ INSTANTIATE_TEST_SUITE_P(
                                w.discharge_coefficient = 1.5;
                              },
                              "wound.discharge_coefficient"},
-                    BadWound{"control_character", [](auto& w) { copyText("a\nb", w.name); }, "wound.name"}),
+                    BadWound{"control_character", [](auto& w) { copyText("a\nb", w.name); }, "wound.name"},
+                    BadWound{"not_utf8", [](auto& w) { copyText("caf\xe9", w.name); }, "wound.name"},
+                    BadWound{"overlong", [](auto& w) { copyText("\xc0\xaf", w.name); }, "wound.name"},
+                    BadWound{"surrogate", [](auto& w) { copyText("\xed\xa0\x80", w.name); }, "wound.name"}),
     [](const auto& tested) { return std::string{tested.param.name}; });
 
 TEST(DecodeWound, ConvertsToSiUnits) {

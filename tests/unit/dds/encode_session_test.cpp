@@ -11,7 +11,7 @@
 namespace bleedsim::dds {
 namespace {
 
-SessionIdentity identity() { return {Uuid{1, 2}, "theatre", "1.0.0", "1.0.0-abc", "host", 77}; }
+SessionIdentity identity() { return {Uuid{1, 2}, "theatre", "1.0.0", "1.0.0-abc", "host", 77, 1234}; }
 
 TEST(CopyText, CutsAtACharacterOfUtf8) {
   char small[6];
@@ -70,6 +70,7 @@ TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
   StatusReport report;
   report.text = std::string(1000, 'y');
   report.pace = {PaceMode::factor, 0.5};
+  report.faults[static_cast<std::size_t>(sph::Counter::speed_clamped)] = 5;
   const std::vector<NamedCount> counts(80, NamedCount{"many", 1});
   EXPECT_EQ(encoder.encode(report, counts).heartbeat, 1U);
   const std::int64_t before = transport::monotonicNow();
@@ -77,8 +78,11 @@ TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
   EXPECT_EQ(status.heartbeat, 2U);
   EXPECT_STREQ(status.session_name, "theatre");
   EXPECT_EQ(status.pid, 77);
+  EXPECT_EQ(status.start_stamp_ns, 1234);
   EXPECT_EQ(std::strlen(status.text), 256U);
-  EXPECT_EQ(status.counters._length, 64U);
+  ASSERT_EQ(status.counters._length, 64U);
+  EXPECT_STREQ(status.counters._buffer[0].name, "speed_clamped");
+  EXPECT_EQ(status.counters._buffer[0].value, 5U);
   EXPECT_EQ(status.pace_mode, static_cast<std::uint32_t>(bleed_v1_PACE_FACTOR));
   EXPECT_GE(status.monotonic_stamp_ns, before);
   EXPECT_LE(status.monotonic_stamp_ns, transport::monotonicNow());

@@ -212,7 +212,11 @@ const std::vector<Rule>& rules() {
       {"horizon_s: 20", "", "effects.auto[0]: platelets are judged by horizon_s, which is missing"},
       {"horizon_s: 20", "horizon_s: 0", "horizon_s: value 0 is out of range, allowed 0.001 to 1000000 (s)"},
       {"model: SOUND", "model: 3", "model: value 3 is unknown, known are SOUND, LITERAL"},
-      {"model: SOUND", "model: LITERAL", "model: LITERAL is not in this version"},
+      {"model: SOUND", "model: SOUND literal {}", "literal: holds numbers of the paper's equations; set model LITERAL"},
+      {"model: SOUND", "model: LITERAL literal { contact_radius: 0.6 }",
+       "literal.contact_radius: value 0.6 is out of range, allowed 0.05 to 0.5 (spacings)"},
+      {"model: SOUND", "model: LITERAL literal { power_1: 4 power_2: 4 }", "literal.power_1: value 4 must be above power_2, 4"},
+      {"model: SOUND", "model: LITERAL", "model: the literal model has one support radius for all particles"},
   };
   return kRules;
 }

@@ -20,6 +20,8 @@ TEST_P(Allocation, StepFrameStatsAndHashAllocateNothing) {
   description.effects.surface_tension.emplace();
   description.effects.surface_tension->contact_angle = 0.7;
   description.effects.adhesion.emplace();
+  description.effects.viscosity->rheology = CassonRheology{};
+  description.effects.platelets.emplace();
   const auto world = test::makeWorld(description, {.threads = GetParam()});
   SetForce force;
   force.key = 1;
@@ -29,7 +31,7 @@ TEST_P(Allocation, StepFrameStatsAndHashAllocateNothing) {
   ASSERT_TRUE(world->apply(force).ok());
   ASSERT_GT(world->particleCount(), 2000u) << "too few particles for a second thread";
 
-  constexpr std::uint32_t kAll = kFrameVelocity | kFrameDensity | kFrameViscosity;
+  constexpr std::uint32_t kAll = kFrameVelocity | kFrameDensity | kFrameViscosity | kFramePlatelet;
   FrameBuffer frame;
   frame.reserve(description.capacity, kAll);
   WorldStats stats;

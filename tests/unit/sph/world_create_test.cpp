@@ -195,8 +195,8 @@ TEST(Effects, TheCatalogueNamesEachWithItsSource) {
     EXPECT_FALSE(effect.source.empty());
     EXPECT_FALSE(effect.deviation.empty());
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "surface_tension", "core_radius", "repulsion",
-                                               "adhesion", "applied_force"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "platelets", "surface_tension", "core_radius",
+                                               "repulsion", "adhesion", "applied_force"}));
 }
 
 TEST(Effects, TheirSettingsEnableThem) {

@@ -36,6 +36,17 @@ WorldDescription bleeding() {
   return description;
 }
 
+/// Two blocks that meet, with a flow curve and platelets of different age.
+WorldDescription clotting(WorldDescription description) {
+  description = harmonic(description);
+  description.effects.viscosity->rheology = CassonRheology{};
+  description.effects.platelets.emplace();
+  description.effects.platelets->diffusivity = 1e-4;
+  description.effects.platelets->clot_speedup = 1000.0;
+  description.fluid_blocks.back().platelet = 0.6;
+  return description;
+}
+
 const std::vector<Case>& cases() {
   static const std::vector<Case> kAll = [] {
     std::vector<Case> scenes{
@@ -60,6 +71,14 @@ const std::vector<Case>& cases() {
            return test::closedBox({9, 8, 10}, 0.2);
          }},
         {"Bleeding", bleeding},
+        {"Clotting",
+         [] {
+           return clotting(test::freeBlock({12, 9, 9}, 0.3));
+         }},
+        {"ClottingPeriodic",
+         [] {
+           return clotting(test::periodicBox({12, 8, 8}, 0.3));
+         }},
     };
     for (const PairSet& set : allPairSets()) {
       scenes.push_back({nameOf(set), [set] {
@@ -82,9 +101,11 @@ std::vector<std::size_t> orderById(const FrameBuffer& frame) {
 }
 
 struct Differences {
-  double position = 0.0;  // m
-  double velocity = 0.0;  // m/s
-  double density = 0.0;   // kg/m^3
+  double position = 0.0;   // m
+  double velocity = 0.0;   // m/s
+  double density = 0.0;    // kg/m^3
+  double viscosity = 0.0;  // Pa s
+  double platelet = 0.0;
 };
 
 /// Largest difference of each field, as a part of the field's largest magnitude.
@@ -99,12 +120,16 @@ Differences compare(const FrameBuffer& a, const FrameBuffer& b) {
     EXPECT_EQ(a.id[i], b.id[j]);
     apart.position = std::max(apart.position, (test::positionOf(a, i) - test::positionOf(b, j)).norm());
     apart.velocity = std::max(apart.velocity, (test::velocityOf(a, i) - test::velocityOf(b, j)).norm());
-    apart.density = std::max(apart.density, std::abs(static_cast<double>(a.density[i]) - static_cast<double>(b.density[j])));
+    apart.density = std::max(apart.density, std::abs(double(a.density[i]) - double(b.density[j])));
+    apart.viscosity = std::max(apart.viscosity, std::abs(double(a.viscosity[i]) - double(b.viscosity[j])));
+    apart.platelet = std::max(apart.platelet, std::abs(double(a.platelet[i]) - double(b.platelet[j])));
     largest.position = std::max(largest.position, test::positionOf(a, i).norm());
     largest.velocity = std::max(largest.velocity, test::velocityOf(a, i).norm());
-    largest.density = std::max(largest.density, static_cast<double>(a.density[i]));
+    largest.density = std::max(largest.density, double(a.density[i]));
+    largest.viscosity = std::max(largest.viscosity, double(a.viscosity[i]));
   }
-  return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density};
+  return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density,
+          apart.viscosity / largest.viscosity, apart.platelet};
 }
 
 class SimdWorld : public testing::TestWithParam<Case> {};
@@ -127,6 +152,8 @@ TEST_P(SimdWorld, OneStepIsThatOfTheScalarTwin) {
     EXPECT_LT(apart.position, 1e-5) << simdTargetName(target);
     EXPECT_LT(apart.velocity, 1e-5) << simdTargetName(target);
     EXPECT_LT(apart.density, 1e-5) << simdTargetName(target);
+    EXPECT_LT(apart.viscosity, 1e-5) << simdTargetName(target);
+    EXPECT_LT(apart.platelet, 1e-6) << simdTargetName(target);
   }
 }
 

@@ -57,6 +57,7 @@ std::vector<Spoiled> spoiledWounds() {
          w.position = {0.0005, 0, 0};
        }},
       {"name", [](WoundDescription& w) { w.name.assign(5000, 'x'); }},
+      {"name 'medial' is already that of wound 1", [](WoundDescription& w) { w.name = "medial"; }},
   };
 }
 
@@ -85,7 +86,9 @@ std::string fingerprint(const ThroatWorld& world) {
 class WoundRefusal : public testing::Test {
  protected:
   WoundRefusal() : world_{plainDescription()} {
-    EXPECT_TRUE(world_.set.add(discWound(0.003, 5e-6)).ok());
+    WoundDescription first = discWound(0.003, 5e-6);
+    first.name = "medial";
+    EXPECT_TRUE(world_.set.add(first).ok());
     WoundDescription second = discWound(0.003, 2e-6);
     second.position = {0.02, 0, 0};
     EXPECT_TRUE(world_.set.add(second).ok());

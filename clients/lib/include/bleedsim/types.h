@@ -45,6 +45,8 @@ struct SessionStatus {
   std::int32_t pid = 0;
   std::int64_t monotonic_stamp_ns = 0;
   std::int64_t realtime_stamp_ns = 0;
+  std::int64_t start_stamp_ns = 0;  ///< CLOCK_REALTIME when the daemon started
+  double behind_s = 0.0;            ///< wall time that the pacing owes
 };
 
 /// The scene that runs; sent at each load, when an effect was switched, and to late joiners.
@@ -101,7 +103,7 @@ struct FrameStats {
   double sim_time_s = 0.0;
   double dt_s = 0.0;
   std::uint32_t steps_in_frame = 0;
-  double real_time_factor = 0.0;  ///< simulated over wall seconds since the last change of pace
+  double real_time_factor = 0.0;  ///< simulated over wall seconds of the last second
   double behind_s = 0.0;          ///< wall time that the pacing owes
   std::vector<std::pair<std::string, double>> stage_costs_us;
   double mean_density_error = 0.0;
