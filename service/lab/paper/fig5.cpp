@@ -8,7 +8,6 @@
 #include "service/lab/paper/gush.h"
 #include "service/lab/paper/model_choice.h"
 #include "service/lab/paper/paper_files.h"
-#include "service/lab/paper/paper_scene.h"
 
 namespace bleedsim::lab {
 namespace {
@@ -170,20 +169,20 @@ sph::EffectSettings effectsOf(const sph::EffectSettings& scene, const Fig5Varian
   return effects;
 }
 
-Result<std::vector<Fig5Run>> runFig5Variants(const sph::WorldDescription& scene, const PaperOptions& options,
-                                             const ProgressReport& progress) {
+Result<std::vector<Fig5Run>> runFig5Variants(const PaperOptions& options, const ProgressReport& progress) {
   std::vector<Fig5Run> runs;
   const std::vector<ModelFace> faces = facesOf(options.model);
   const double all = static_cast<double>(faces.size() * kFig5Variants.size());
   for (const ModelFace& face : faces) {
-    const sph::WorldDescription model = inModel(scene, face);
+    const auto scene = loadFace(options, "fig5", face);
+    if (!scene) return scene.status();
     for (const Fig5Variant& variant : kFig5Variants) {
       std::string refusal;
       if (face.literal && !variant.radius && variant.tension)
         refusal = "the literal model has no (34) that could be switched off";
       if (refusal.empty()) {
-        sph::WorldDescription world = model;
-        world.effects = effectsOf(model.effects, variant);
+        sph::WorldDescription world = *scene;
+        world.effects = effectsOf(scene->effects, variant);
         runs.push_back(runOne(world, options, face.name, variant.letter));
       } else {
         Fig5Run run;
@@ -201,9 +200,7 @@ Result<std::vector<Fig5Run>> runFig5Variants(const sph::WorldDescription& scene,
 }
 
 Result<PaperReport> runFig5(const PaperOptions& options, const ProgressReport& progress) {
-  const auto scene = loadPaperScene(options, "fig5");
-  if (!scene) return scene.status();
-  const auto runs = runFig5Variants(scene->world, options, progress);
+  const auto runs = runFig5Variants(options, progress);
   if (!runs) return runs.status();
   const std::vector<Claim> claims = judgeFig5(*runs);
   PaperReport report;
@@ -217,7 +214,9 @@ Result<PaperReport> runFig5(const PaperOptions& options, const ProgressReport& p
   for (const Claim& claim : claims) report.text += toText(claim);
   if (options.folder.empty()) return report;
   for (const ModelFace& face : facesOf(options.model)) {
-    if (Status status = drawRuns(*runs, face.name, scene->world, options); !status.ok()) return status;
+    const auto scene = loadFace(options, "fig5", face);
+    if (!scene) return scene.status();
+    if (Status status = drawRuns(*runs, face.name, *scene, options); !status.ok()) return status;
   }
   return report;
 }

@@ -57,8 +57,8 @@ struct Fig5Run {
 /// The sentences of Fig. 5, judged by runs of one model or two.
 std::vector<Claim> judgeFig5(const std::vector<Fig5Run>& runs);
 
-Result<std::vector<Fig5Run>> runFig5Variants(const sph::WorldDescription& scene, const PaperOptions& options,
-                                             const ProgressReport& progress);
+/// Runs of the models that the options ask for.
+Result<std::vector<Fig5Run>> runFig5Variants(const PaperOptions& options, const ProgressReport& progress);
 
 Result<PaperReport> runFig5(const PaperOptions& options, const ProgressReport& progress);
 

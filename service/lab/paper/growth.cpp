@@ -11,7 +11,6 @@
 #include "service/lab/paper/body_picture.h"
 #include "service/lab/paper/gush.h"
 #include "service/lab/paper/gush_figures.h"
-#include "service/lab/paper/model_choice.h"
 #include "service/lab/paper/paper_files.h"
 #include "service/lab/paper/paper_scene.h"
 
@@ -77,7 +76,7 @@ Status drawGrowth(const Growth& growth, const sph::WorldDescription& scene, cons
   return writeLinePlot(options, name + "_area", plot);
 }
 
-nlohmann::json toJson(const Growth& growth, const PaperOptions& options, const std::string& name, const std::string& model) {
+nlohmann::json toJson(const Growth& growth, const PaperOptions& options, const std::string& name) {
   nlohmann::json points = nlohmann::json::array();
   for (const GrowthPoint& point : growth.points) {
     nlohmann::json row{{"time_s", point.time},
@@ -88,7 +87,6 @@ nlohmann::json toJson(const Growth& growth, const PaperOptions& options, const s
     points.push_back(std::move(row));
   }
   nlohmann::json json{{"experiment", name},
-                      {"model", model},
                       {"particles", options.particles},
                       {"points", std::move(points)},
                       {"area_by_particles", {{"exponent", growth.area_by_count.exponent}, {"r2", growth.area_by_count.r2}}}};
@@ -97,9 +95,9 @@ nlohmann::json toJson(const Growth& growth, const PaperOptions& options, const s
   return json;
 }
 
-std::string toText(const Growth& growth, const std::string& name, const std::string& model) {
-  std::string text = fmt::format("{}, {} model: growth\n{:>9} {:>9} {:>10} {:>10} {:>9}\n", name == "fig8" ? "Fig. 8" : "Fig. 6",
-                                 model, "particles", "time s", "area cm2", "highest mm", "covered");
+std::string toText(const Growth& growth, const std::string& name) {
+  std::string text = fmt::format("{}: growth\n{:>9} {:>9} {:>10} {:>10} {:>9}\n", name == "fig8" ? "Fig. 8" : "Fig. 6",
+                                 "particles", "time s", "area cm2", "highest mm", "covered");
   for (const GrowthPoint& point : growth.points) {
     text += fmt::format("{:>9} {:>9.4f} {:>10.3f} {:>10.2f} {:>9}\n", point.particles, point.time, 1e4 * point.area,
                         1e3 * point.largest_height, point.covered ? fmt::format("{:.1f} %", 1e2 * *point.covered) : "-");
@@ -167,14 +165,13 @@ Result<Growth> growBlood(const sph::WorldDescription& scene, const PaperOptions&
 Result<PaperReport> runGrowth(const PaperOptions& options, const std::string& name, const ProgressReport& progress) {
   const auto scene = loadPaperScene(options, name);
   if (!scene) return scene.status();
-  const ModelFace face = facesOf(options.model).front();
-  const sph::WorldDescription world = inModel(scene->world, face);
+  const sph::WorldDescription& world = scene->world;
   const auto growth = growBlood(world, options, progress);
   if (!growth) return growth.status();
   if (!options.folder.empty()) {
     if (Status status = drawGrowth(*growth, world, options, name); !status.ok()) return status;
   }
-  return PaperReport{toJson(*growth, options, name, face.name), toText(*growth, name, face.name)};
+  return PaperReport{toJson(*growth, options, name), toText(*growth, name)};
 }
 
 }  // namespace bleedsim::lab

@@ -10,7 +10,6 @@
 #include "service/lab/paper/claim.h"
 #include "service/lab/paper/model_choice.h"
 #include "service/lab/paper/paper_files.h"
-#include "service/lab/paper/paper_scene.h"
 #include "service/picture/scene_picture.h"
 #include "service/sph/seeding.h"
 
@@ -266,10 +265,6 @@ Result<std::vector<IntruderRun>> runIntruders(const sph::WorldDescription& scene
 }
 
 Result<PaperReport> runFig2(const PaperOptions& options, const ProgressReport& progress) {
-  const auto scene = loadPaperScene(options, "fig2");
-  if (!scene) return scene.status();
-  sph::WorldDescription planar = scene->world;
-  planar.planar = true;
   PaperReport report;
   report.json = {{"experiment", "fig2"},
                  {"duration_s", options.duration},
@@ -279,9 +274,10 @@ Result<PaperReport> runFig2(const PaperOptions& options, const ProgressReport& p
   const std::vector<ModelFace> faces = facesOf(options.model);
   std::vector<Claim> claims;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const sph::WorldDescription world = inModel(planar, faces[f]);
+    const auto world = loadFace(options, "fig2", faces[f]);
+    if (!world) return world.status();
     const auto parts = static_cast<double>(faces.size());
-    const auto runs = runIntruders(world, options, [&](double part) { progress((static_cast<double>(f) + part) / parts); });
+    const auto runs = runIntruders(*world, options, [&](double part) { progress((static_cast<double>(f) + part) / parts); });
     if (!runs) return runs.status();
     report.text += fmt::format("{:<8} {:<26} {:>7} {:>7} {:>7} {:>10} {:>8} {:>10}\n", faces[f].name, "run", "edge", "inner",
                                "block", "intruders", "overlap", "momentum");
@@ -299,20 +295,20 @@ Result<PaperReport> runFig2(const PaperOptions& options, const ProgressReport& p
                                      {"intruders_moved_m", figures.intruders_moved},
                                      {"overlap", figures.overlap},
                                      {"momentum_drift", figures.momentum_drift}});
-      const double dx = scene->world.spacing;
+      const double dx = world->spacing;
       report.text +=
           fmt::format("{:<8} {:<26} {:>7.2f} {:>7.2f} {:>7.2f} {:>10.2f} {:>8.4f} {:>10.2e}{}\n", "", run.name,
                       figures.edge_moved / dx, figures.inner_moved / dx, figures.block_moved / dx, figures.intruders_moved / dx,
                       figures.overlap, figures.momentum_drift, run.failure.empty() ? "" : "  " + run.failure);
     }
-    std::vector<Claim> own = claimsOf(*runs, scene->world.spacing, faces[f].name);
+    std::vector<Claim> own = claimsOf(*runs, world->spacing, faces[f].name);
     if (claims.empty()) {
       claims = std::move(own);
     } else {
       for (std::size_t k = 0; k < own.size(); ++k) claims[k].evidence.push_back(own[k].evidence.front());
     }
     if (options.folder.empty()) continue;
-    if (Status status = drawSheet(*runs, world, options, faces[f].name); !status.ok()) return status;
+    if (Status status = drawSheet(*runs, *world, options, faces[f].name); !status.ok()) return status;
   }
   for (Claim& claim : claims) {
     conclude(claim);

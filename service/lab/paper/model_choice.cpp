@@ -1,5 +1,7 @@
 #include "service/lab/paper/model_choice.h"
 
+#include "service/lab/paper/paper_scene.h"
+
 namespace bleedsim::lab {
 
 std::vector<ModelFace> facesOf(ModelChoice choice) {
@@ -9,11 +11,15 @@ std::vector<ModelFace> facesOf(ModelChoice choice) {
   return faces;
 }
 
-sph::WorldDescription inModel(const sph::WorldDescription& scene, const ModelFace& face) {
-  sph::WorldDescription world = scene;
-  world.model = face.literal ? sph::Model::literal : sph::Model::sound;
-  if (face.literal) world.effects.core_radius.reset();
-  return world;
+Result<sph::WorldDescription> loadFace(const PaperOptions& options, std::string_view experiment, const ModelFace& face) {
+  auto scene = loadPaperScene(options, std::string{experiment} + (face.literal ? "_literal" : ""));
+  if (!scene) return scene.status();
+  const sph::Model wanted = face.literal ? sph::Model::literal : sph::Model::sound;
+  if (scene->world.model != wanted) {
+    return Status{StatusCode::invalid_argument,
+                  "scene '" + scene->name + "' must have model: " + (face.literal ? "LITERAL" : "SOUND")};
+  }
+  return scene->world;
 }
 
 }  // namespace bleedsim::lab

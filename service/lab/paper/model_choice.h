@@ -1,10 +1,12 @@
-// The paper's method in its two faces: as printed, and sound.
+// The paper's method in its two faces, each with a scene file of its own: as printed, and sound.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "service/lab/paper/paper_options.h"
+#include "service/status/status.h"
 
 namespace bleedsim::lab {
 
@@ -16,7 +18,7 @@ struct ModelFace {
 /// The models that the options ask for, sound first.
 std::vector<ModelFace> facesOf(ModelChoice choice);
 
-/// The scene in that model; the literal one has no core radius (34).
-sph::WorldDescription inModel(const sph::WorldDescription& scene, const ModelFace& face);
+/// What the experiment's scene describes: EXPERIMENT.textproto, or EXPERIMENT_literal.textproto.
+Result<sph::WorldDescription> loadFace(const PaperOptions& options, std::string_view experiment, const ModelFace& face);
 
 }  // namespace bleedsim::lab

@@ -102,7 +102,7 @@ TEST(PaperCommands, Fig5LiteralHasFiveRunsAndAVerdictForEachSentence) { expectFi
 
 void expectGrowth(const std::string& name) {
   const Folder folder{name};
-  const Json json = runJson(paper(name, {"--particles", "500", "--model", "sound", "-o", folder.text()}));
+  const Json json = runJson(paper(name, {"--particles", "500", "-o", folder.text()}));
   ASSERT_EQ(json["points"].size(), 24u);
   double time = 0.0;
   for (const Json& point : json["points"]) {
