@@ -43,7 +43,6 @@ class FakeWorld final : public sph::World {
   double speedOfSound() const override { return 3.0; }
   double particleMass() const override { return 1e-6; }
   bool faulted() const override { return faulted_; }
-  sph::MemoryUse memory() const override { return {}; }
 
  private:
   sph::WorldDescription description_;

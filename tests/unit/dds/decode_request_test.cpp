@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadRequest{"attribute_later", [] { return output(0.0, 1U << 7U); }, StatusCode::unsupported, "output.attributes"},
         BadRequest{"effect_nameless", [] { return effect("", true, ""); }, StatusCode::invalid_argument, "effect.name is empty"},
         BadRequest{"effect_control", [] { return effect("a\x01", true, ""); }, StatusCode::invalid_argument,
-                   "effect.name holds a control character"},
+                   "effect.name: byte 1 (0x01) is a control character"},
         BadRequest{"attribute_unknown", [] { return output(0.0, 1U << 31U); }, StatusCode::unsupported, "output.attributes"},
         BadRequest{"no_steps", [] { return steps(0); }, StatusCode::invalid_argument, "step.count is 0"},
         BadRequest{"too_many_steps", [] { return steps(0xFFFFFFFFU); }, StatusCode::invalid_argument, "step.count"},

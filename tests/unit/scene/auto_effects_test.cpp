@@ -46,7 +46,7 @@ TEST(DecideTension, LooksAtEveryKindOfFeature) {
   EXPECT_TRUE(with([](auto& w) { w.wounds[0].shape = sph::PolylinePatch{{{0, 0}, {0.1, 0}}, 0.002}; }));
   EXPECT_TRUE(with([](auto& w) { w.wounds[0].shape = sph::PolygonPatch{{{0, 0}, {0.1, 0}, {0.1, 0.006}}}; }));
   EXPECT_TRUE(with([](auto& w) {
-    w.fluid_blocks.push_back({.lower = {0, 0, 0}, .upper = {0.05, 0.05, 0.004}, .viscosity = {}});
+    w.fluid_blocks.push_back({.lower = {0, 0, 0}, .upper = {0.05, 0.05, 0.004}, .viscosity = {}, .platelet = {}});
   }));
   EXPECT_TRUE(with([](auto& w) {
     w.tissue.push_back({.name = "b", .shape = sph::BoxShape{.lower = {0, 0, 0}, .upper = {0.1, 0.1, 0.005}}});
@@ -126,7 +126,7 @@ TEST(DecideImplicitViscosity, LooksAtTheThickestBlood) {
   clotting.effects.platelets.emplace();
   EXPECT_TRUE(decideImplicitViscosity(clotting, 4.0).enabled) << "a clot of 10 Pa s";
   sph::WorldDescription block = viscous(0.004);
-  block.fluid_blocks.push_back({.viscosity = 5.0});
+  block.fluid_blocks.push_back({.viscosity = 5.0, .platelet = {}});
   EXPECT_TRUE(decideImplicitViscosity(block, 4.0).enabled);
   sph::WorldDescription casson = viscous(0.004);
   // At rest mu = (sqrt(mu_c) + sqrt(tau_y/g_r))^2 = (0.0592 + 2)^2 = 4.24 Pa s.

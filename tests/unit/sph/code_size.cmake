@@ -1,8 +1,15 @@
-# Fails if the compiled pair passes together take more than LIMIT bytes: cmake -DSIZE=... -DLIMIT=... -DOBJECTS="a.o,b.o" -P
+# Fails if the compiled pair passes of one model take more code than allowed:
+#   cmake -DSIZE=... -DKIND=sound|literal -DOBJECTS="a.o,b.o" -P
+set(LIMIT_sound 2097152)
+set(LIMIT_literal 1572864)
+set(LIMIT "${LIMIT_${KIND}}")
 string(REPLACE "," ";" objects "${OBJECTS}")
 set(total 0)
 foreach(object IN LISTS objects)
   if(NOT object MATCHES "/passes/")
+    continue()
+  endif()
+  if((KIND STREQUAL "literal" AND NOT object MATCHES "_literal_") OR (KIND STREQUAL "sound" AND object MATCHES "_literal_"))
     continue()
   endif()
   execute_process(COMMAND "${SIZE}" "${object}" OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)

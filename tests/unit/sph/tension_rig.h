@@ -44,7 +44,7 @@ class TensionRig {
                wallConstants<Real>(description, lattice_, speedOfSound(description)), count_, shares},
         wounds_{description, speedOfSound(description)},
         tension_{*description.effects.surface_tension,
-                 sweepsOf<Real>(target, {isPeriodic(), !radius.empty()}),
+                 sweepsOf(target, {isPeriodic(), !radius.empty()}),
                  lattice_.particle_mass,
                  description.rest_density,
                  h_,
@@ -81,6 +81,12 @@ class TensionRig {
 
  private:
   bool isPeriodic() const { return passChoice(description_).periodic; }
+  static const SweepTable<Real>& sweepsOf([[maybe_unused]] SimdTarget target, const SweepChoice& choice) {
+    if constexpr (std::is_same_v<Real, double>)
+      return referenceSweeps(choice);
+    else
+      return *findSweeps(target, choice);
+  }
   static const PassTable<Real>& tableOf(const WorldDescription& description, [[maybe_unused]] SimdTarget target) {
     if constexpr (std::is_same_v<Real, double>)
       return referencePasses(passChoice(description));
@@ -112,7 +118,7 @@ class TensionRig {
     });
     walls_.sample(grid_, sorted_, wounds_, count_, shares_, *executor_);
     passes_.density(grid_, sorted_, walls_.share(), count_, shares_, *executor_);
-    passes_.force(grid_, sorted_, count_, shares_, *executor_);
+    passes_.force(grid_, sorted_, count_, shares_, *executor_, true);
     tension_.add(grid_, sorted_, walls_, passes_, count_, shares_, *executor_);
     acceleration_.resize(count_);
     for (std::uint32_t k = 0; k < count_; ++k) {
