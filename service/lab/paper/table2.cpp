@@ -15,7 +15,7 @@
 namespace bleedsim::lab {
 namespace {
 
-constexpr int kMeshSteps = 5;  // in a turn
+constexpr int kMeshSteps = 15;  // in a turn
 constexpr double kAnyStep = std::numeric_limits<double>::infinity();
 
 struct PaperRates {
@@ -63,11 +63,11 @@ class Runner {
   Status turn() {
     using Clock = std::chrono::steady_clock;
     const int steps = search_ == Search::complete ? 1 : kMeshSteps;
-    const Clock::time_point start = Clock::now();
     for (int step = 0; step < steps; ++step) {
+      const Clock::time_point start = Clock::now();
       if (Status status = world_->step(kAnyStep); !status.ok()) return status;
+      seconds_.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     }
-    seconds_.push_back(std::chrono::duration<double>(Clock::now() - start).count() / steps);
     return {};
   }
 
