@@ -20,7 +20,7 @@ enum class Search { complete, mesh };
 struct RateRow {
   std::uint32_t particles = 0;
   Search search = Search::mesh;
-  double rate = 0.0;                 ///< steps per second, by the median step
+  double rate = 0.0;                 ///< steps per second, by the lower quartile of a step's time
   double dt = 0.0;                   ///< s, of the last step: rate x dt is simulated over wall time
   std::optional<double> paper_rate;  ///< frames per second of the paper, for its own counts
   std::uint32_t steps = 0;           ///< measured

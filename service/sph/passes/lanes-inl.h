@@ -80,7 +80,7 @@ struct WideLanes {
   }
 
   /// Four consecutive record fields of eight neighbours, one vector a field: 128-bit loads and an in-register transpose.
-  static void gatherGroup(const float* base, const std::uint32_t* offsets, V* fields) {
+  static HWY_INLINE void gatherGroup(const float* base, const std::uint32_t* offsets, V* fields) {
     const hn::Half<Tag> half;
     const auto pair = [&](int k) {
       return hn::Combine(Tag{}, hn::Load(half, base + offsets[k + 4]), hn::Load(half, base + offsets[k]));
@@ -157,7 +157,7 @@ struct ScalarLanes {
   static void compress(Ids v, Mask, std::uint32_t* p) { *p = v; }
   static V tail(std::uint32_t left) { return left > 0 ? Real(0) : Real(1e6); }
 
-  static void gatherGroup(const Real* base, const std::uint32_t* offsets, V* fields) {
+  static HWY_INLINE void gatherGroup(const Real* base, const std::uint32_t* offsets, V* fields) {
     for (int k = 0; k < 4; ++k) fields[k] = base[offsets[0] + static_cast<std::uint32_t>(k)];
   }
   static V sums(const V* w) { return w[0]; }
