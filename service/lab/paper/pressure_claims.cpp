@@ -39,7 +39,7 @@ Measured medianOf(std::vector<double> values) {
 template <class Kernel, class Weight>
 std::array<double, 2> edgeErrors(const Kernel& slope, const Weight& weight, double h) {
   const int reach = static_cast<int>(std::ceil(h));
-  const auto sumOver = [&](int column, auto&& add) {
+  const auto sum_over = [&](int column, auto&& add) {
     for (int x = std::max(-reach, -column); x <= reach; ++x) {
       for (int y = -reach; y <= reach; ++y) {
         for (int z = -reach; z <= reach; ++z) {
@@ -51,18 +51,18 @@ std::array<double, 2> edgeErrors(const Kernel& slope, const Weight& weight, doub
   };
   const int inside = 4 * reach;
   double rest = 0.0;
-  sumOver(inside, [&](int, double r) { rest += weight(r); });
+  sum_over(inside, [&](int, double r) { rest += weight(r); });
   const double mass = 1.0 / rest;
   std::vector<double> density(static_cast<std::size_t>(inside + reach + 1), 0.0);
   for (int column = 0; column <= inside + reach; ++column)
-    sumOver(column, [&](int, double r) { density[static_cast<std::size_t>(column)] += mass * weight(r); });
+    sum_over(column, [&](int, double r) { density[static_cast<std::size_t>(column)] += mass * weight(r); });
   std::array<double, 2> squares{};
   int columns = 0;
   for (int column = 0; column + 0.5 < h; ++column, ++columns) {
     std::array<double, 2> acceleration{};
     const double p = column + 0.5;
     const double rho = density[static_cast<std::size_t>(column)];
-    sumOver(column, [&](int x, double r) {
+    sum_over(column, [&](int x, double r) {
       if (r == 0.0) return;
       const double other_p = p + x;
       const double other_rho = density[static_cast<std::size_t>(column + x)];

@@ -244,7 +244,7 @@ class PairPasses {
   bool symmetric_;
   int groups_;
   PairConstants<Real> constants_;
-  Real growth_ = 1;  // of the contact distance
+  Real growth_ = 1;                              // of the contact distance
   std::optional<LatticeFactors<Real>> lattice_;  // with (34)
   AlignedArray<Real> record_;
   AlignedArray<Real> density_;       // kg/m^3

@@ -77,8 +77,8 @@ class WallEffects {
   }
 
   /// Calls visit(particle, wall, closed) for the particles of a share that touch tissue, by rising index. A share is that of the
-  /// grid's rows in sample(), which must have been called with as many `shares`. `closed` is 1 less what an open wound takes of the
-  /// tissue there.
+  /// grid's rows in sample(), which must have been called with as many `shares`. `closed` is 1 less what an open wound takes of
+  /// the tissue there.
   template <class Visit>
   void forEachTouching(int share, Visit&& visit) const {
     if (field_.empty()) return;

@@ -128,9 +128,7 @@ TEST(PaperCommands, Fig2HasFourRunsInEachModel) {
     EXPECT_NEAR(run["time_s"].get<double>(), 0.2, 0.001);
     // Rounding of 0.2 s of steps in float: 1e-6 of the momentum a particle and step, 400 steps.
     EXPECT_LT(run["momentum_drift"].get<double>(), 1e-3) << run.dump();
-    if (run["intruders"].get<bool>()) {
-      EXPECT_GT(run["intruders_moved_m"].get<double>(), 0.0);
-    }
+    if (run["intruders"].get<bool>()) { EXPECT_GT(run["intruders_moved_m"].get<double>(), 0.0); }
   }
   EXPECT_EQ(json["claims"].size(), 5u);
   EXPECT_TRUE(folder.has("fig2_sound.png"));

@@ -13,7 +13,6 @@
 namespace bleedsim::scene {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 

@@ -232,21 +232,21 @@ TEST(SceneEffects, EachBrokenRuleIsNamedWithItsPath) {
 }
 
 TEST(SceneEffects, WhatAnEffectNeedsIsSaidOfThatEffect) {
-  const auto problemsOf = [](const std::string& effects) {
+  const auto problems_of = [](const std::string& effects) {
     return parseScene(std::string{kLeastScene} + "effects { " + effects + " }").status().message();
   };
-  EXPECT_THAT(problemsOf("platelets {}"), HasSubstr("effects.platelets: needs viscosity, there is nothing to thicken"));
-  EXPECT_THAT(problemsOf("viscosity { viscosity_pa_s: 0 } platelets {}"),
+  EXPECT_THAT(problems_of("platelets {}"), HasSubstr("effects.platelets: needs viscosity, there is nothing to thicken"));
+  EXPECT_THAT(problems_of("viscosity { viscosity_pa_s: 0 } platelets {}"),
               HasSubstr("effects.platelets: needs a viscosity above 0"));
-  EXPECT_THAT(problemsOf("auto: 'surface_tension'"), HasSubstr("effects.auto[0]: there is no surface_tension"));
-  EXPECT_THAT(problemsOf("auto: 'platelets'"), HasSubstr("effects.auto[0]: there are no platelets"));
-  EXPECT_THAT(problemsOf("auto: 'implicit_viscosity'"), HasSubstr("effects.auto[0]: there is no viscosity"));
-  EXPECT_THAT(problemsOf("viscosity { solve: EXPLICIT } auto: 'implicit_viscosity'"), HasSubstr("is EXPLICIT already"));
-  EXPECT_THAT(problemsOf("viscosity { viscosity_pa_s: 1 casson {} }"), HasSubstr("rheology"));
-  EXPECT_THAT(problemsOf("viscosity {} } output { attributes: PLATELET"),
+  EXPECT_THAT(problems_of("auto: 'surface_tension'"), HasSubstr("effects.auto[0]: there is no surface_tension"));
+  EXPECT_THAT(problems_of("auto: 'platelets'"), HasSubstr("effects.auto[0]: there are no platelets"));
+  EXPECT_THAT(problems_of("auto: 'implicit_viscosity'"), HasSubstr("effects.auto[0]: there is no viscosity"));
+  EXPECT_THAT(problems_of("viscosity { solve: EXPLICIT } auto: 'implicit_viscosity'"), HasSubstr("is EXPLICIT already"));
+  EXPECT_THAT(problems_of("viscosity { viscosity_pa_s: 1 casson {} }"), HasSubstr("rheology"));
+  EXPECT_THAT(problems_of("viscosity {} } output { attributes: PLATELET"),
               HasSubstr("output.attributes: PLATELET needs the platelets"));
-  EXPECT_THAT(problemsOf("surface_tensoin {}"), HasSubstr("did you mean 'surface_tension'?"));
-  EXPECT_THAT(problemsOf("platelets { clot_viscosity: 1 }"), HasSubstr("did you mean 'clot_viscosity_pa_s'?"));
+  EXPECT_THAT(problems_of("surface_tensoin {}"), HasSubstr("did you mean 'surface_tension'?"));
+  EXPECT_THAT(problems_of("platelets { clot_viscosity: 1 }"), HasSubstr("did you mean 'clot_viscosity_pa_s'?"));
 }
 
 TEST(SceneEffects, AllProblemsAreToldAtOnce) {

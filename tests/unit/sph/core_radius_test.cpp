@@ -26,7 +26,7 @@ double worstCubeRoot() {
 
 // The start is within 4 %, Halley leaves 2/3 e^3: two steps 8e-15, three 0; what remains is rounding.
 TEST(CubeRoot, IsExactToFourUnitsInTheLastPlace) {
-  EXPECT_LT(worstCubeRoot<float>(), 4.0 * double{std::numeric_limits<float>::epsilon()});
+  EXPECT_LT(worstCubeRoot<float>(), 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon()));
   EXPECT_LT(worstCubeRoot<double>(), 4.0 * std::numeric_limits<double>::epsilon());
   EXPECT_EQ(cubeRoot(1.0f), 1.0f);
   EXPECT_EQ(cubeRoot(1.0), 1.0);
@@ -52,7 +52,7 @@ TEST(RadiusScale, OfOneRadiusIsThatRadius) {
   for (const RadiusBounds& bounds : {RadiusBounds{1.0, 1.0}, RadiusBounds{1.0, 1.3}, RadiusBounds{0.9, 1.0}}) {
     const RadiusPlace<float> place = RadiusScale<float>{bounds}.at(1.0f);
     const auto nodes = radiusNodes(bounds);
-    EXPECT_EQ(nodes[place.node] + double{place.part} * (nodes[place.node + 1] - nodes[place.node]), 1.0);
+    EXPECT_EQ(nodes[place.node] + static_cast<double>(place.part) * (nodes[place.node + 1] - nodes[place.node]), 1.0);
   }
 }
 
@@ -84,7 +84,7 @@ std::vector<double> radiiOf(const World& world) {
   world.copyFrame(frame, kFrameRadius);
   std::vector<double> radii;
   for (std::uint32_t i = 0; i < frame.count; ++i) {
-    radii.push_back(double{frame.radius[i]} / world.description().supportRadius());
+    radii.push_back(static_cast<double>(frame.radius[i]) / world.description().supportRadius());
     EXPECT_GE(radii.back(), 0.9 - 1e-6);
     EXPECT_LE(radii.back(), 1.3 + 1e-6);
   }
@@ -170,8 +170,8 @@ TEST(CoreRadius, DenseBloodShrinksByTheCubeRoot) {
   world->copyFrame(frame, kFrameRadius | kFrameDensity);
   ASSERT_EQ(frame.count, 1024u);
   for (std::uint32_t i = 0; i < frame.count; ++i) {
-    const double radius = double{frame.radius[i]} / world->description().supportRadius();
-    EXPECT_NEAR(radius, std::cbrt(test::kRestDensity / double{frame.density[i]}), 1e-4) << "(34)";
+    const double radius = static_cast<double>(frame.radius[i]) / world->description().supportRadius();
+    EXPECT_NEAR(radius, std::cbrt(test::kRestDensity / static_cast<double>(frame.density[i])), 1e-4) << "(34)";
     EXPECT_LT(radius, 0.9);
     EXPECT_GT(radius, std::cbrt(0.5));
   }

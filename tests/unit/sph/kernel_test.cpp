@@ -32,25 +32,25 @@ using Case = std::tuple<KernelType, bool>;
 
 class KernelTest : public testing::TestWithParam<Case> {
  protected:
-  KernelType type = std::get<0>(GetParam());
-  bool planar = std::get<1>(GetParam());
-  SmoothingKernel kernel{type, kH, planar ? 0.001 : 0.0};
-  double dimension = planar ? 2.0 : 3.0;
+  KernelType type_ = std::get<0>(GetParam());
+  bool planar_ = std::get<1>(GetParam());
+  SmoothingKernel kernel_{type_, kH, planar_ ? 0.001 : 0.0};
+  double dimension_ = planar_ ? 2.0 : 3.0;
 
   /// Of a shell of radius r over dr, m^2.
-  double shell(double r) const { return planar ? 2.0 * std::numbers::pi * r * kernel.layer : 4.0 * std::numbers::pi * r * r; }
+  double shell(double r) const { return planar_ ? 2.0 * std::numbers::pi * r * kernel_.layer : 4.0 * std::numbers::pi * r * r; }
 };
 
 // int W dV = 1. The quadrature's error is below 1e-9 where W is smooth; r ln r at the middle of (32) in the plane costs 1e-8.
 TEST_P(KernelTest, integratesToOne) {
-  EXPECT_NEAR(integrate(0.0, kH, [&](double r) { return shell(r) * kernel.value(r); }), 1.0, 1e-6);
+  EXPECT_NEAR(integrate(0.0, kH, [&](double r) { return shell(r) * kernel_.value(r); }), 1.0, 1e-6);
 }
 
 // int W dV = -1/d int r W' dV and int r^2 lap W dV = 2 d int W dV, because W and W' vanish at the support's edge.
 TEST_P(KernelTest, momentsOfSlopeAndLaplacianAreThoseOfTheKernel) {
-  EXPECT_NEAR(integrate(0.0, kH, [&](double r) { return shell(r) * r * kernel.slope(r); }), -dimension, 1e-6 * dimension);
-  EXPECT_NEAR(integrate(0.0, kH, [&](double r) { return shell(r) * r * r * kernel.laplacian(r); }), 2.0 * dimension,
-              1e-6 * 2.0 * dimension);
+  EXPECT_NEAR(integrate(0.0, kH, [&](double r) { return shell(r) * r * kernel_.slope(r); }), -dimension_, 1e-6 * dimension_);
+  EXPECT_NEAR(integrate(0.0, kH, [&](double r) { return shell(r) * r * r * kernel_.laplacian(r); }), 2.0 * dimension_,
+              1e-6 * 2.0 * dimension_);
 }
 
 // Central differences: the error is the step's square, (1e-5)^2 of the third derivative's scale, plus rounding 1e-16/1e-5.
@@ -58,24 +58,24 @@ TEST_P(KernelTest, slopeAndLaplacianAreDerivatives) {
   const double step = 1e-5 * kH;
   for (double q = 0.11; q < 0.99; q += 0.07) {
     const double r = q * kH;
-    const double slope = (kernel.value(r + step) - kernel.value(r - step)) / (2.0 * step);
-    EXPECT_NEAR(kernel.slope(r), slope, 1e-6 * std::abs(kernel.slope(0.5 * kH))) << q;
-    const auto flux = [&](double at) { return std::pow(at, dimension - 1.0) * kernel.slope(at); };
-    const double laplacian = (flux(r + step) - flux(r - step)) / (2.0 * step) / std::pow(r, dimension - 1.0);
-    EXPECT_NEAR(kernel.laplacian(r), laplacian, 1e-6 * std::abs(kernel.slope(0.5 * kH)) / kH) << q;
+    const double slope = (kernel_.value(r + step) - kernel_.value(r - step)) / (2.0 * step);
+    EXPECT_NEAR(kernel_.slope(r), slope, 1e-6 * std::abs(kernel_.slope(0.5 * kH))) << q;
+    const auto flux = [&](double at) { return std::pow(at, dimension_ - 1.0) * kernel_.slope(at); };
+    const double laplacian = (flux(r + step) - flux(r - step)) / (2.0 * step) / std::pow(r, dimension_ - 1.0);
+    EXPECT_NEAR(kernel_.laplacian(r), laplacian, 1e-6 * std::abs(kernel_.slope(0.5 * kH)) / kH) << q;
   }
 }
 
 // (31) as printed is positive. All kernels fall with distance, so that pressure pushes particles apart.
 TEST_P(KernelTest, fallsWithDistanceAndEndsAtTheSupport) {
   for (double q = 0.01; q < 1.0; q += 0.03) {
-    EXPECT_LT(kernel.slope(q * kH), 0.0) << q;
-    EXPECT_GT(kernel.value(q * kH), 0.0) << q;
+    EXPECT_LT(kernel_.slope(q * kH), 0.0) << q;
+    EXPECT_GT(kernel_.value(q * kH), 0.0) << q;
   }
   for (const double q : {1.0, 1.5}) {
-    EXPECT_EQ(kernel.value(q * kH), 0.0);
-    EXPECT_EQ(kernel.slope(q * kH), 0.0);
-    EXPECT_EQ(kernel.laplacian(q * kH), 0.0);
+    EXPECT_EQ(kernel_.value(q * kH), 0.0);
+    EXPECT_EQ(kernel_.slope(q * kH), 0.0);
+    EXPECT_EQ(kernel_.laplacian(q * kH), 0.0);
   }
 }
 
@@ -112,9 +112,9 @@ TEST(PaperKernel, isThePrintedForm) {
 
 // The claim behind (32): viscosity from poly6's or spiky's Laplacian would speed particles up somewhere, (33) nowhere.
 TEST(PaperKernel, laplaciansOfPoly6AndSpikyAreNegativeInARangeThatOfViscosityNowhere) {
-  const auto lowest = [](KernelType type) {
+  const auto lowest = [](KernelType type_) {
     double least = 1e300;
-    for (double q = 0.01; q < 1.0; q += 0.01) least = std::min(least, SmoothingKernel{type, kH}.laplacian(q * kH));
+    for (double q = 0.01; q < 1.0; q += 0.01) least = std::min(least, SmoothingKernel{type_, kH}.laplacian(q * kH));
     return least;
   };
   EXPECT_LT(lowest(KernelType::poly6), 0.0);
@@ -131,17 +131,17 @@ TEST(PaperKernel, slopeOfPoly6VanishesInTheMiddleThatOfSpikyIsSteepestThere) {
 }
 
 TEST(KernelNorms, areThoseOfThePassesGradients) {
-  for (const bool planar : {false, true}) {
+  for (const bool planar_ : {false, true}) {
     for (const double q : {0.2, 0.45, 0.7}) {
       const double r = q * kH;
       const double t = 1.0 - q;
-      const double layer = planar ? kH : 0.0;  // so that 1/h^d = 1/h^3
+      const double layer = planar_ ? kH : 0.0;  // so that 1/h^d = 1/h^3
       const double unit = std::numbers::pi * kH * kH * kH * kH;
-      const auto gradient_of = [&](KernelType type) { return -SmoothingKernel{type, kH, layer}.slope(r) * unit / q; };
-      EXPECT_NEAR(gradient_of(KernelType::wendland_c2), kernelNorms(KernelType::wendland_c2, planar).gradient * t * t * t, 1e-9);
-      EXPECT_NEAR(gradient_of(KernelType::spiky), kernelNorms(KernelType::spiky, planar).gradient * t * t / q, 1e-9);
+      const auto gradient_of = [&](KernelType type_) { return -SmoothingKernel{type_, kH, layer}.slope(r) * unit / q; };
+      EXPECT_NEAR(gradient_of(KernelType::wendland_c2), kernelNorms(KernelType::wendland_c2, planar_).gradient * t * t * t, 1e-9);
+      EXPECT_NEAR(gradient_of(KernelType::spiky), kernelNorms(KernelType::spiky, planar_).gradient * t * t / q, 1e-9);
       EXPECT_NEAR(gradient_of(KernelType::cubic_spline),
-                  kernelNorms(KernelType::cubic_spline, planar).gradient * (q < 0.5 ? 2.0 - 3.0 * q : t * t / q), 1e-9);
+                  kernelNorms(KernelType::cubic_spline, planar_).gradient * (q < 0.5 ? 2.0 - 3.0 * q : t * t / q), 1e-9);
     }
   }
 }

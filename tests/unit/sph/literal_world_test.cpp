@@ -68,7 +68,7 @@ TEST(LiteralStep, CalibratesTheMassWithPoly6) {
 double meanViscosity(const World& world) {
   const FrameBuffer frame = test::frameOf(world);
   double sum = 0.0;
-  for (const float viscosity : frame.viscosity) sum += double{viscosity};
+  for (const float viscosity : frame.viscosity) sum += static_cast<double>(viscosity);
   return sum / frame.count;
 }
 
