@@ -103,7 +103,7 @@ void addOptions(CLI::App& command, Arguments& arguments, const Experiment& has) 
         ->check(CLI::IsMember({"sound", "literal", "both"}));
   }
   if (has.lasts) {
-    command.add_option("--duration", options.duration, "Simulated time of fig2, s")
+    command.add_option("--duration", options.duration, "Simulated time of the block at rest, s")
         ->capture_default_str()
         ->check(CLI::Range(1e-3, 1e4));
   }

@@ -1,5 +1,5 @@
 // Fig. 2 of the paper, in two dimensions: a block at rest, and a few fast particles that pass through it, with and without the
-// repulsion (36).
+// repulsion (36). The intruders come at the start, into a block that is still whole.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,8 @@ struct IntruderRun {
   bool repulsion = false;
   bool intruders = false;
   std::string failure;
-  IntruderFigures figures;
+  IntruderFigures passage;        ///< when intruders have had the time to pass the block
+  IntruderFigures figures;        ///< at the end: of a block at rest after the options' duration, else the same
   std::vector<float> positions;   ///< m, by id
   std::uint32_t block_count = 0;  ///< the first ones are the block's
 };

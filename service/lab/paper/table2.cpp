@@ -148,7 +148,7 @@ std::string toText(const RateTable& table, const PaperOptions& options) {
   text +=
       fmt::format("{:>9}  {:<15} {:>10} {:>8} {:>8} {:>9}\n", "particles", "search", "frames/s", "paper", "enough", "sim. s/s");
   for (const RateRow& row : table.rows) {
-    text += fmt::format("{:>9}  {:<15} {:>10.2f} {:>8} {:>8} {:>9.4f}\n", row.particles, nameOf(row.search), row.rate,
+    text += fmt::format("{:>9}  {:<15} {:>10.2f} {:>8} {:>8} {:>9.2g}\n", row.particles, nameOf(row.search), row.rate,
                         row.paper_rate ? fmt::format("{:.1f}", *row.paper_rate) : "-", row.rate >= kSmoothRate ? "yes" : "no",
                         row.rate * row.dt);
   }
