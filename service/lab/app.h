@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+// NOLINTNEXTLINE(readability-identifier-naming): CLI11 names its namespace
 namespace CLI {
 class App;
 }

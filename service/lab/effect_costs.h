@@ -1,9 +1,10 @@
 // What each effect costs: time per particle and step, and memory per particle, one effect on at a time and one off at a time.
 //
 // All variants are measured on the same body of blood, a pool in an open box at the scene's spacing, support radius, kernel and
-// fluid, in turns, so that a busy machine slows all of them alike; a figure is the median over the turns. The particles are held by
-// steps of 1 ns, so that all variants have the same neighbours: a pool without viscosity would go on boiling and cost more. What an
-// effect costs by shorter steps is told apart (dt); an implicit solve, whose work grows with the step, is nearly free here.
+// fluid, in turns, so that a busy machine slows all of them alike; a figure is the median over the turns. The particles are held
+// by steps of 1 ns, so that all variants have the same neighbours: a pool without viscosity would go on boiling and cost more.
+// What an effect costs by shorter steps is told apart (dt); an implicit solve, whose work grows with the step, is nearly free
+// here.
 #pragma once
 
 #include <cstdint>

@@ -37,34 +37,34 @@ void expectFields(const std::vector<double>& density, const std::vector<Vec3>& a
 
 class LiteralPass : public testing::TestWithParam<std::tuple<LiteralSet, bool>> {
  protected:
-  WorldDescription description = scene(std::get<0>(GetParam()), std::get<1>(GetParam()));
-  LiteralSet set = std::get<0>(GetParam());
+  WorldDescription description_ = scene(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  LiteralSet set_ = std::get<0>(GetParam());
 };
 
 // Double precision: rounding of about 30 neighbours' sums, and of pe^6 by products against pow.
 TEST_P(LiteralPass, ReferenceEqualsTheOracleToRoundOff) {
-  const PassRig<double> rig{description, SimdTarget::scalar, stirred(description)};
-  const OracleFields oracle = literalOracle(description, rig.rounded());
+  const PassRig<double> rig{description_, SimdTarget::scalar, stirred(description_)};
+  const OracleFields oracle = literalOracle(description_, rig.rounded());
   expectFields(rig.density(), rig.acceleration(), rig.plateletRate(), oracle, 1e-11);
-  const bool pushes = set.pressure != PressureTerm::none || set.tension || set.viscosity || set.repulsion;
+  const bool pushes = set_.pressure != PressureTerm::none || set_.tension || set_.viscosity || set_.repulsion;
   EXPECT_EQ(largestNorm(oracle.acceleration) > 1.0, pushes) << "the scene is at rest: nothing is compared";
-  EXPECT_EQ(largestOf(oracle.platelet_rate) > 1e-6, set.platelets);
+  EXPECT_EQ(largestOf(oracle.platelet_rate) > 1e-6, set_.platelets);
 }
 
 // Single precision: 1e-5 of the largest acceleration, as for the sound model's passes.
 TEST_P(LiteralPass, EveryTargetEqualsTheOracle) {
   for (const SimdTarget target : availableSimdTargets()) {
-    const PassRig<float> rig{description, target, stirred(description)};
-    expectFields(rig.density(), rig.acceleration(), rig.plateletRate(), literalOracle(description, rig.rounded()), 1e-5);
+    const PassRig<float> rig{description_, target, stirred(description_)};
+    expectFields(rig.density(), rig.acceleration(), rig.plateletRate(), literalOracle(description_, rig.rounded()), 1e-5);
     EXPECT_EQ(rig.overflowed(), 0u);
   }
 }
 
 TEST_P(LiteralPass, GivesTheSameBitsForAnyNumberOfShares) {
   for (const SimdTarget target : availableSimdTargets()) {
-    const PassRig<float> one{description, target, stirred(description)};
+    const PassRig<float> one{description_, target, stirred(description_)};
     for (const int shares : {2, 5}) {
-      const PassRig<float> many{description, target, stirred(description), shares};
+      const PassRig<float> many{description_, target, stirred(description_), shares};
       EXPECT_EQ(one.density(), many.density());
       EXPECT_EQ(one.acceleration(), many.acceleration());
       EXPECT_EQ(one.plateletRate(), many.plateletRate());
