@@ -112,9 +112,9 @@ TEST(PaperKernel, isThePrintedForm) {
 
 // The claim behind (32): viscosity from poly6's or spiky's Laplacian would speed particles up somewhere, (33) nowhere.
 TEST(PaperKernel, laplaciansOfPoly6AndSpikyAreNegativeInARangeThatOfViscosityNowhere) {
-  const auto lowest = [](KernelType type_) {
+  const auto lowest = [](KernelType type) {
     double least = 1e300;
-    for (double q = 0.01; q < 1.0; q += 0.01) least = std::min(least, SmoothingKernel{type_, kH}.laplacian(q * kH));
+    for (double q = 0.01; q < 1.0; q += 0.01) least = std::min(least, SmoothingKernel{type, kH}.laplacian(q * kH));
     return least;
   };
   EXPECT_LT(lowest(KernelType::poly6), 0.0);
@@ -131,17 +131,17 @@ TEST(PaperKernel, slopeOfPoly6VanishesInTheMiddleThatOfSpikyIsSteepestThere) {
 }
 
 TEST(KernelNorms, areThoseOfThePassesGradients) {
-  for (const bool planar_ : {false, true}) {
+  for (const bool planar : {false, true}) {
     for (const double q : {0.2, 0.45, 0.7}) {
       const double r = q * kH;
       const double t = 1.0 - q;
-      const double layer = planar_ ? kH : 0.0;  // so that 1/h^d = 1/h^3
+      const double layer = planar ? kH : 0.0;  // so that 1/h^d = 1/h^3
       const double unit = std::numbers::pi * kH * kH * kH * kH;
-      const auto gradient_of = [&](KernelType type_) { return -SmoothingKernel{type_, kH, layer}.slope(r) * unit / q; };
-      EXPECT_NEAR(gradient_of(KernelType::wendland_c2), kernelNorms(KernelType::wendland_c2, planar_).gradient * t * t * t, 1e-9);
-      EXPECT_NEAR(gradient_of(KernelType::spiky), kernelNorms(KernelType::spiky, planar_).gradient * t * t / q, 1e-9);
+      const auto gradient_of = [&](KernelType type) { return -SmoothingKernel{type, kH, layer}.slope(r) * unit / q; };
+      EXPECT_NEAR(gradient_of(KernelType::wendland_c2), kernelNorms(KernelType::wendland_c2, planar).gradient * t * t * t, 1e-9);
+      EXPECT_NEAR(gradient_of(KernelType::spiky), kernelNorms(KernelType::spiky, planar).gradient * t * t / q, 1e-9);
       EXPECT_NEAR(gradient_of(KernelType::cubic_spline),
-                  kernelNorms(KernelType::cubic_spline, planar_).gradient * (q < 0.5 ? 2.0 - 3.0 * q : t * t / q), 1e-9);
+                  kernelNorms(KernelType::cubic_spline, planar).gradient * (q < 0.5 ? 2.0 - 3.0 * q : t * t / q), 1e-9);
     }
   }
 }
