@@ -139,6 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Effects, AdoptToggle,
                                          Toggle{"tension", [](EffectSettings& e) { e.surface_tension.emplace(); }},
                                          Toggle{"platelets", [](EffectSettings& e) { e.platelets.emplace(); }},
                                          Toggle{"adhesion", [](EffectSettings& e) { e.adhesion.emplace(); }},
+                                         Toggle{"core_radius", [](EffectSettings& e) { e.core_radius.emplace(); }},
                                          Toggle{"force_off", [](EffectSettings& e) { e.applied_force.reset(); }}),
                          [](const auto& tested) { return std::string{tested.param.name}; });
 
