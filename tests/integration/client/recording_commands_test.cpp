@@ -120,6 +120,7 @@ TEST_F(RecordingCommandsTest, WhatWasRecordedIsDescribedExportedAndReadBackEqual
   EXPECT_FALSE(member(figures, "truncated").bool_value());
   EXPECT_EQ(text(figures, "session"), "theatre");
   EXPECT_EQ(text(figures, "scene"), "round_wound");
+  EXPECT_EQ(text(figures, "build_id") + "\n", test::runProcess({BLEEDD_PATH, "--version"}).output);
 
   auto reader = recording::RecordingReader::open(file);
   ASSERT_TRUE(reader.ok()) << reader.status().message();
