@@ -8,8 +8,6 @@ namespace bleedsim::daemon {
 
 // BLEEDSIM_... and the revision are for this file alone, so that a new revision does not compile everything again.
 std::string buildVersion() { return BLEEDSIM_VERSION; }
-std::string buildId() {
-  return fmt::format("{}-{} {} {}", BLEEDSIM_VERSION, kRevision, BLEEDSIM_COMPILER, BLEEDSIM_BUILD_TYPE);
-}
+std::string buildId() { return fmt::format("{}-{} {} {}", BLEEDSIM_VERSION, kRevision, BLEEDSIM_COMPILER, BLEEDSIM_BUILD_TYPE); }
 
 }  // namespace bleedsim::daemon
