@@ -172,14 +172,16 @@ class WatchPrinter {
       json.add("particles", stats.particles).add("ml_emitted", stats.emitted_ml).add("frames", frames.received);
       JsonObject counters;
       for (const auto& [name, value] : stats.fault_counters) counters.add(name, value);
-      fmt::print("{}\n", json.add("gaps", frames.gaps).raw("fault_counters", counters.text()).text());
+      json.add("gaps", frames.gaps).add("malformed", frames.malformed);
+      fmt::print("{}\n", json.raw("fault_counters", counters.text()).text());
       return;
     }
     printLine(
         fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time, {:.3f} s behind  {:>8} particles  {:>9.3f} mL  {} frames, "
-                    "{} gaps{}",
+                    "{} gaps{}{}",
                     client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.behind_s, stats.particles,
-                    stats.emitted_ml, frames.received, frames.gaps, faultText(stats)));
+                    stats.emitted_ml, frames.received, frames.gaps,
+                    frames.malformed > 0 ? fmt::format(", {} malformed", frames.malformed) : std::string{}, faultText(stats)));
   }
 
   void printState(const client::SessionStatus& status) const {

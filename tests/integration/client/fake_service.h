@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "service/transport/clock.h"
@@ -29,7 +30,15 @@ class FakeService {
                                                     Judge judge = {});
   ~FakeService();
 
-  void publishStatus(std::uint32_t state = bleed_v1_STATE_RUNNING);
+  /// Put into every status and statistics published after.
+  struct Figures {
+    double real_time_factor = 1.0;
+    double behind_s = 0.0;
+    std::vector<std::pair<std::string, std::uint64_t>> counters{};
+  };
+  Figures figures;
+
+  void publishStatus(std::uint32_t state = bleed_v1_STATE_RUNNING, const std::string& text = {});
   void publishScene(const std::string& scene_name);
   /// One frame of `count` particles at sim_time_s = seq / 60, and its stats with 0.5 mL for each frame.
   Status publishFrame(std::uint64_t seq, std::uint32_t count = 3);
@@ -43,6 +52,8 @@ class FakeService {
   std::vector<bleed_v1_Instrument> instruments();
   /// Blocks until so many readers take frames; false after 20 s.
   bool waitFrameReaders(std::size_t count);
+  /// Blocks until no reader takes frames any more: the next one is not taken for one that has just ended. False after 20 s.
+  bool waitNoFrameReaders();
 
   const transport::Uuid session = transport::drawUuid();
 
