@@ -28,9 +28,8 @@ std::optional<std::string> BufferWatch::note(std::size_t frame_bytes) {
                           remedy.empty() ? "" : "; ", kReceiveBufferBytes / 1000);
   }
   return fmt::format(
-      "this host grants receive buffers of {} kB, two full frames of this scene and its attributes need {} kB: frames may be "
-      "lost. "
-      "Remedy: {}",
+      "this host grants receive buffers of {} kB, two frames of this scene at full capacity need {} kB: frames that large may be "
+      "lost. Remedy: {}",
       granted / 1000, needed / 1000, remedy);
 }
 
