@@ -102,6 +102,30 @@ TEST_F(CountersTest, WatchShowsThem) {
   ASSERT_EQ(shown.wait(), 0);
 }
 
+TEST_F(CountersTest, WatchTellsOfFramesThatDoNotCome) {
+  // The next lines until one holds the text; a session without news gives one every 2 s.
+  const auto shows = [](test::ChildProcess& watch, const std::string& expected) {
+    for (int i = 0; i < 20; ++i) {
+      const auto line = watch.readLine();
+      if (!line) return false;
+      if (line->find(expected) != std::string::npos) return true;
+    }
+    return false;
+  };
+  for (const bool json : {true, false}) {
+    test::ChildProcess watch{json ? command({"watch", "--json"}) : command({"watch"}), false};
+    ASSERT_TRUE(service_->waitFrameReaders(1));
+    ASSERT_TRUE(service_->publishFrame(1).ok());
+    for (std::uint64_t seq = 2; seq <= 6; ++seq) ASSERT_TRUE(service_->publishStats(seq).ok());
+    EXPECT_TRUE(shows(watch, json ? R"("gaps": 0, "overdue": 5)" : "1 frames, 0 gaps, 5 overdue"));
+    ASSERT_TRUE(service_->publishFrame(7).ok());
+    EXPECT_TRUE(shows(watch, json ? R"("gaps": 5, "overdue": 0)" : "2 frames, 5 gaps  "));
+    watch.signal(SIGINT);
+    ASSERT_EQ(watch.wait(), 0);
+    ASSERT_TRUE(service_->waitNoFrameReaders());
+  }
+}
+
 TEST_F(CountersTest, InfoShowsThemOfARecording) {
   const std::string file = fmt::format("{}/bleedsim_counters_{}.mcap", testing::TempDir(), getpid());
   test::ChildProcess recording{command({"record", "-o", file, "--frames", "3"}), true};

@@ -122,6 +122,7 @@ void FakeService::publishScene(const std::string& scene_name) {
   std::string text = "# " + scene_name;
   scene.scene_text = text.data();
   scene.spacing_m = 0.003;
+  scene.capacity = capacity;
   static_cast<void>(endpoints_->scene.write(scene).ok());
 }
 
@@ -143,11 +144,16 @@ Status FakeService::publishFrame(std::uint64_t seq, std::uint32_t count) {
   frame.attributes = {2, 2, attributes, false};
   frame.payload._buffer = payload.data();
   frame.payload._length = frame.payload._maximum = static_cast<std::uint32_t>(payload.size());
+  if (Status written = endpoints_->frame.write(frame); !written) return written;
+  return publishStats(seq, count);
+}
+
+Status FakeService::publishStats(std::uint64_t seq, std::uint32_t count) {
   bleed_v1_FrameStats stats{};
   transport::copyUuid(session, stats.session);
   stats.seq = seq;
-  stats.step = frame.step;
-  stats.sim_time_s = frame.sim_time_s;
+  stats.step = 10 * seq;
+  stats.sim_time_s = static_cast<double>(seq) / 60.0;
   stats.particles = count;
   stats.emitted_ml = 0.5 * static_cast<double>(seq);
   stats.real_time_factor = figures.real_time_factor;
@@ -155,7 +161,6 @@ Status FakeService::publishFrame(std::uint64_t seq, std::uint32_t count) {
   std::vector<bleed_v1_Counter> counters = wireCounters(figures.counters);
   stats.fault_counters._buffer = counters.data();
   stats.fault_counters._length = stats.fault_counters._maximum = static_cast<std::uint32_t>(counters.size());
-  if (Status written = endpoints_->frame.write(frame); !written) return written;
   return endpoints_->stats.write(stats);
 }
 

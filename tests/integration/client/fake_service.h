@@ -37,11 +37,14 @@ class FakeService {
     std::vector<std::pair<std::string, std::uint64_t>> counters{};
   };
   Figures figures;
+  std::uint32_t capacity = 0;  ///< put into every scene published after
 
   void publishStatus(std::uint32_t state = bleed_v1_STATE_RUNNING, const std::string& text = {});
   void publishScene(const std::string& scene_name);
   /// One frame of `count` particles at sim_time_s = seq / 60, and its stats with 0.5 mL for each frame.
   Status publishFrame(std::uint64_t seq, std::uint32_t count = 3);
+  /// The stats of a frame that is lost on its way.
+  Status publishStats(std::uint64_t seq, std::uint32_t count = 3);
   /// A frame whose payload is one byte short.
   Status publishMalformedFrame(std::uint64_t seq);
 

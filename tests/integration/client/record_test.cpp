@@ -181,6 +181,19 @@ TEST_F(RecordTest, EndsWithItsDaemonThoughAnotherOneLives) {
   EXPECT_EQ(number(info(), "max_particles"), 3.0);
 }
 
+TEST_F(RecordTest, WarnsOfFramesThatNoReceiveBufferHolds) {
+  const auto service = serve("one");
+  service->capacity = 10'000'000;
+  service->publishScene("huge");
+  test::ChildProcess recording{record({"--frames", "1", "--json"}), true};
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  ASSERT_TRUE(service->publishFrame(1).ok());
+  EXPECT_EQ(recording.wait(), 0) << recording.output();
+  EXPECT_THAT(recording.output(),
+              AllOf(HasSubstr("warning: "), HasSubstr("two frames of this scene at full capacity need 320000 kB")));
+  EXPECT_EQ(number(lastLine(recording.output()), "frames"), 1.0);
+}
+
 TEST_F(RecordTest, CountsMalformedFrames) {
   const auto service = serve("one");
   for (const bool json : {true, false}) {

@@ -27,7 +27,7 @@ TEST(BufferWatch, SaysWhatThereIsWhatIsNeededAndTheRemedy) {
   BufferWatch watch{kPlainKernel};
   const std::string warning = watch.note(2'800'000).value_or("");
   EXPECT_THAT(warning, AllOf(HasSubstr("grants receive buffers of 212 kB"), HasSubstr("need 5600 kB"),
-                             HasSubstr("sysctl -w net.core.rmem_max=67108864"), Not(HasSubstr("capacity"))));
+                             HasSubstr("sysctl -w net.core.rmem_max=67108864"), Not(HasSubstr("smaller capacity"))));
 }
 
 TEST(BufferWatch, HasAnotherRemedyForFramesAboveWhatIsAskedFor) {
