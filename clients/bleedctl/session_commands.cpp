@@ -25,7 +25,8 @@ constexpr std::chrono::seconds kQuietInterval{2};
 constexpr const char* kWatchText =
     "Prints a line whenever there are new statistics, at most five a second. Without them, as in a pause, it prints\n"
     "state, simulated time, step and particles: at once, when the state changes, and every 2 s. With --json such a line\n"
-    "has no 'seq'. --count counts the lines of both kinds.\n\n";
+    "has no 'seq'. --count counts the lines of both kinds. Frames are overdue when the statistics tell of them and they do not\n"
+    "come: with a receive buffer that is too small for them, all may get lost.\n\n";
 
 std::string paceText(const client::SessionStatus& status) {
   switch (status.pace) {
@@ -47,6 +48,15 @@ std::string faultText(const client::FrameStats& stats) {
     if (value == 0 || std::find(kTraffic.begin(), kTraffic.end(), name) != kTraffic.end()) continue;
     text += fmt::format("{}{} {}", text.empty() ? "  " : ", ", name, value);
   }
+  return text;
+}
+
+/// Frames that came and that did not. One or two may just be on their way.
+std::string frameText(const client::FrameCounters& frames) {
+  constexpr std::uint64_t kOnTheirWay = 2;
+  std::string text = fmt::format("{} frames, {} gaps", frames.received, frames.gaps);
+  if (frames.overdue > kOnTheirWay) text += fmt::format(", {} overdue", frames.overdue);
+  if (frames.malformed > 0) text += fmt::format(", {} malformed", frames.malformed);
   return text;
 }
 
@@ -172,14 +182,13 @@ class WatchPrinter {
       json.add("particles", stats.particles).add("ml_emitted", stats.emitted_ml).add("frames", frames.received);
       JsonObject counters;
       for (const auto& [name, value] : stats.fault_counters) counters.add(name, value);
-      fmt::print("{}\n", json.add("gaps", frames.gaps).raw("fault_counters", counters.text()).text());
+      json.add("gaps", frames.gaps).add("overdue", frames.overdue).add("malformed", frames.malformed);
+      fmt::print("{}\n", json.raw("fault_counters", counters.text()).text());
       return;
     }
-    printLine(
-        fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time, {:.3f} s behind  {:>8} particles  {:>9.3f} mL  {} frames, "
-                    "{} gaps{}",
-                    client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.behind_s, stats.particles,
-                    stats.emitted_ml, frames.received, frames.gaps, faultText(stats)));
+    printLine(fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time, {:.3f} s behind  {:>8} particles  {:>9.3f} mL  {}{}",
+                          client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.behind_s,
+                          stats.particles, stats.emitted_ml, frameText(frames), faultText(stats)));
   }
 
   void printState(const client::SessionStatus& status) const {

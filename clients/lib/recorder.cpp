@@ -1,5 +1,6 @@
 #include "bleedsim/recorder.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
@@ -10,10 +11,13 @@
 #include <type_traits>
 
 #include "clients/lib/client_impl.h"
+#include "clients/lib/convert.h"
 #include "clients/lib/frame_decoder.h"
+#include "clients/lib/pinned_daemon.h"
 #include "clients/lib/recording_window.h"
 #include "service/recording/recording_writer.h"
 #include "service/transport/clock.h"
+#include "service/transport/receive_buffer.h"
 #include "service/transport/uuid.h"
 
 namespace bleedsim::client {
@@ -25,6 +29,7 @@ using transport::Sample;
 using transport::Topic;
 
 constexpr std::int64_t kStatsGrace = 1'000'000'000;  // the statistics follow their frame at once
+constexpr std::int64_t kFirstWord = 10'000'000'000;  // a daemon that lives gives its last status to a new reader at once
 
 template <class T>
 Result<Reader<T>> makeReader(const transport::Participant& participant, const std::string& session, Topic topic) {
@@ -35,6 +40,16 @@ Status checkLimits(const RecordingLimits& limits) {
   const auto positive = [](const std::optional<double>& value) { return !value || (std::isfinite(*value) && *value > 0.0); };
   if (positive(limits.duration_s) && positive(limits.rate_hz) && limits.frames.value_or(1) > 0) return {};
   return {StatusCode::invalid_argument, "duration, frames and rate of a recording have to be above 0"};
+}
+
+/// The daemon that runs the session, as far as the client has heard of it. A killed one and its successor are both known for a
+/// while.
+std::optional<Uuid> newestDaemon(const std::vector<SessionStatus>& sessions, const std::string& name) {
+  const SessionStatus* newest = nullptr;
+  for (const SessionStatus& session : sessions) {
+    if (session.name == name && (newest == nullptr || session.start_stamp_ns > newest->start_stamp_ns)) newest = &session;
+  }
+  return newest == nullptr ? std::optional<Uuid>{} : newest->session;
 }
 
 }  // namespace
@@ -53,10 +68,11 @@ class Recorder::Impl {
     transport::WaitSet waits;
   };
 
-  Impl(transport::Participant participant, std::string session, const RecordingLimits& limits, Endpoints endpoints,
-       recording::RecordingWriter writer)
+  Impl(transport::Participant participant, std::string session, const std::optional<Uuid>& daemon, const RecordingLimits& limits,
+       Endpoints endpoints, recording::RecordingWriter writer)
       : participant_{std::move(participant)},
         session_{std::move(session)},
+        daemon_{daemon},
         endpoints_{std::move(endpoints)},
         writer_{std::move(writer)},
         window_{limits},
@@ -78,29 +94,38 @@ class Recorder::Impl {
   template <class T>
   bool drain(Reader<T>& reader);
   template <class T>
-  void store(const T& sample);
+  void store(const Sample<T>& sample);
   void storeFrame(const bleed_v1_Frame& frame);
+  void noteStatus(const Sample<bleed_v1_Status>& sample);
   void note(const Status& appended);
   void openFrames();
+  bool daemonLost() const;
   bool complete();
   void publish(bool done);
 
   transport::Participant participant_;
   std::string session_;
+  PinnedDaemon daemon_;
   Endpoints endpoints_;
   std::optional<Reader<bleed_v1_Frame>> frames_;
   recording::RecordingWriter writer_;  // of the thread, and of close() once that has ended
   RecordingWindow window_;
   Frame checked_;  // reused
   Status failure_;
+  transport::BufferWatch buffer_watch_{transport::receiveBufferLimit()};
+  std::string buffer_warning_;
+  std::uint32_t capacity_ = 0;
+  transport::PublicationHandle publication_ = 0;  // the status writer of our daemon; 0: not heard yet
+  SessionState state_ = SessionState::unknown;
+  std::string state_text_;
   bool scene_seen_ = false;
-  bool peer_seen_ = false;
   bool gone_ = false;
   std::uint64_t last_seq_ = 0;
   std::uint64_t stats_seq_ = 0;
   std::uint64_t malformed_ = 0;
   std::uint32_t particles_ = 0;
   std::int64_t full_since_ = 0;
+  std::int64_t started_ = transport::monotonicNow();
 
   mutable std::mutex mutex_;  // covers progress_ and closed_
   std::condition_variable changed_;
@@ -116,18 +141,30 @@ void Recorder::Impl::note(const Status& appended) {
 }
 
 template <class T>
-void Recorder::Impl::store(const T& sample) {
+void Recorder::Impl::store(const Sample<T>& sample) {
+  if (!daemon_.owns(transport::toUuid(sample.data->session))) return;
   if constexpr (std::is_same_v<T, bleed_v1_Frame>) {
-    storeFrame(sample);
-    return;
+    storeFrame(*sample.data);
+  } else {
+    if constexpr (std::is_same_v<T, bleed_v1_Scene>) {
+      scene_seen_ = true;
+      capacity_ = sample.data->capacity;
+    }
+    if constexpr (std::is_same_v<T, bleed_v1_FrameStats>) {
+      stats_seq_ = sample.data->seq;
+      if (window_.full() && sample.data->seq > last_seq_) return;
+    }
+    if constexpr (std::is_same_v<T, bleed_v1_Status>) noteStatus(sample);
+    note(writer_.append(*sample.data));
   }
-  if constexpr (std::is_same_v<T, bleed_v1_Scene>) scene_seen_ = true;
-  if constexpr (std::is_same_v<T, bleed_v1_FrameStats>) {
-    stats_seq_ = sample.seq;
-    if (window_.full() && sample.seq > last_seq_) return;
-  }
-  if constexpr (std::is_same_v<T, bleed_v1_Status>) gone_ = gone_ || sample.state == bleed_v1_STATE_STOPPED;
-  if constexpr (!std::is_same_v<T, bleed_v1_Frame>) note(writer_.append(sample));
+}
+
+void Recorder::Impl::noteStatus(const Sample<bleed_v1_Status>& sample) {
+  SessionStatus status = fromWire(*sample.data);
+  publication_ = sample.publication;
+  state_ = status.state;
+  state_text_ = std::move(status.text);
+  gone_ = gone_ || state_ == SessionState::stopped;
 }
 
 void Recorder::Impl::storeFrame(const bleed_v1_Frame& frame) {
@@ -136,7 +173,11 @@ void Recorder::Impl::storeFrame(const bleed_v1_Frame& frame) {
     ++malformed_;
     return;
   }
-  if (!window_.keep(transport::toUuid(frame.session), frame.epoch, frame.sim_time_s)) {
+  if (frame.count > 0) {
+    const std::size_t particle_bytes = frame.payload._length / frame.count;
+    if (auto warning = buffer_watch_.note(particle_bytes * capacity_)) buffer_warning_ = std::move(*warning);
+  }
+  if (!window_.keep(frame.epoch, frame.sim_time_s)) {
     writer_.skip(frame);
     return;
   }
@@ -149,7 +190,7 @@ template <class T>
 bool Recorder::Impl::drain(Reader<T>& reader) {
   for (;;) {
     const Result<std::size_t> taken = reader.take([&](const Sample<T>& sample) {
-      if (sample.data != nullptr) store(*sample.data);
+      if (sample.data != nullptr) store(sample);
     });
     if (!taken) return false;
     if (*taken < Reader<T>::kMaxBatch) return true;
@@ -168,6 +209,14 @@ void Recorder::Impl::openFrames() {
   if (Status attached = endpoints_.waits.attach(*frames_, kSamples); !attached) failure_ = attached;
 }
 
+bool Recorder::Impl::daemonLost() const {
+  if (publication_ == 0) return transport::monotonicNow() - started_ > kFirstWord;
+  // Liveliness tells first, but only that of all daemons of the name together.
+  if (endpoints_.status.aliveCount() == 0) return true;
+  const std::vector<transport::PublicationHandle> writers = endpoints_.status.matchedPublications();
+  return std::find(writers.begin(), writers.end(), publication_) == writers.end();
+}
+
 bool Recorder::Impl::complete() {
   if (!failure_.ok() || gone_) return true;
   if (!window_.full()) return false;
@@ -182,12 +231,17 @@ void Recorder::Impl::publish(bool done) {
     const std::lock_guard lock{mutex_};
     progress_ = {.frames = counts.frames,
                  .gaps = counts.gaps,
-                 .malformed = malformed_,
+                 .malformed = malformed_ + counts.refused,
                  .particles = particles_,
                  .recorded_s = window_.recordedSeconds(),
                  .bytes = counts.bytes,
                  .done = done,
-                 .session_gone = gone_};
+                 .complete = window_.full(),
+                 .session_gone = gone_,
+                 .replaced = daemon_.strangerHeard(),
+                 .state = state_,
+                 .state_text = state_text_,
+                 .buffer_warning = buffer_warning_};
   }
   changed_.notify_all();
 }
@@ -198,13 +252,12 @@ void Recorder::Impl::serve() {
     // Bounded, since matches are looked at here as well.
     const Result<transport::WakeUp> woken = endpoints_.waits.wait(std::chrono::milliseconds{100});
     if (!woken) failure_ = woken.status();
-    const bool alive = endpoints_.status.aliveCount() > 0;
+    const bool lost = daemonLost();  // asked first: what came before the end is still stored
     bool read = drain(endpoints_.scene) && drain(endpoints_.journal) && drain(endpoints_.status);
     if (frames_) read = read && drain(*frames_);
     read = read && drain(endpoints_.stats);
     if (!read && failure_.ok()) failure_ = {StatusCode::io, "the middleware refused to give samples"};
-    peer_seen_ = peer_seen_ || alive;
-    gone_ = gone_ || (peer_seen_ && !alive);
+    gone_ = gone_ || lost;
     openFrames();
     done = complete();
     publish(done);
@@ -239,6 +292,7 @@ Result<Recorder> Recorder::start(Client& client, const std::string& session, con
                                  const RecordingLimits& limits) {
   if (Status checked = checkLimits(limits); !checked) return checked;
   const transport::Participant participant = client.impl_->participant();
+  const std::optional<Uuid> daemon = newestDaemon(client.sessions(), session);
   auto journal = makeReader<bleed_v1_Journal>(participant, session, Topic::journal);
   if (!journal) return journal.status();
   auto scene = makeReader<bleed_v1_Scene>(participant, session, Topic::scene);
@@ -260,7 +314,7 @@ Result<Recorder> Recorder::start(Client& client, const std::string& session, con
   if (!writer) return writer.status();
   Impl::Endpoints endpoints{std::move(*journal), std::move(*scene), std::move(*status),
                             std::move(*stats),   std::move(*guard), std::move(*waits)};
-  return Recorder{std::make_unique<Impl>(participant, session, limits, std::move(endpoints), std::move(*writer))};
+  return Recorder{std::make_unique<Impl>(participant, session, daemon, limits, std::move(endpoints), std::move(*writer))};
 }
 
 RecordingProgress Recorder::progress() const { return impl_->progress(); }

@@ -1,4 +1,4 @@
-// Decides which frames of a stream a recording keeps. No DDS and no file in here.
+// Decides which frames of one daemon's stream a recording keeps. No DDS and no file in here.
 #pragma once
 
 #include <cmath>
@@ -13,11 +13,10 @@ class RecordingWindow {
   explicit RecordingWindow(const RecordingLimits& limits) : limits_{limits} {}
 
   /// True: record the frame. Call it for each frame in order, until full().
-  bool keep(const Uuid& session, std::uint32_t epoch, double sim_time_s) {
-    if (!started_ || session != session_ || epoch != epoch_) {
+  bool keep(std::uint32_t epoch, double sim_time_s) {
+    if (!started_ || epoch != epoch_) {
       // Simulated time starts again at 0 with each epoch: what was recorded before counts on.
       before_s_ = recorded_s_;
-      session_ = session;
       epoch_ = epoch;
       first_s_ = sim_time_s;
       next_ = 0.0;
@@ -45,7 +44,6 @@ class RecordingWindow {
  private:
   RecordingLimits limits_;
   bool started_ = false;
-  Uuid session_{};
   std::uint32_t epoch_ = 0;
   double first_s_ = 0.0;
   double next_ = 0.0;

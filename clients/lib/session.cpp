@@ -29,7 +29,10 @@ Result<FramePointer> Session::waitFrame(std::chrono::nanoseconds timeout) {
 
 FrameCounters Session::frameCounters() const {
   const std::lock_guard lock{impl_->mutex};
-  return impl_->counters;
+  FrameCounters counters = impl_->counters;
+  counters.gaps = impl_->gaps.gaps();
+  counters.overdue = impl_->gaps.overdue();
+  return counters;
 }
 
 std::optional<FrameStats> Session::stats() const {

@@ -209,6 +209,7 @@ void Session::Impl::takeStats() {
     FrameStats value = fromWire(wire);
     if (options.on_stats) options.on_stats(value);
     const std::lock_guard lock{mutex};
+    if (endpoints_->frame) gaps.told(value.session, value.seq);
     stats = std::move(value);
   });
 }
@@ -225,7 +226,7 @@ void Session::Impl::takeFrames() {
         return;
       }
       ++counters.received;
-      counters.gaps += gaps_.note(frame->header().session, frame->header().seq);
+      gaps.note(frame->header().session, frame->header().seq);
       if (!options.on_frame) frames.put(frame);
       counters.dropped = frames.dropped();
       news = true;

@@ -41,6 +41,7 @@ class Session::Impl {
   std::condition_variable changed;
   FrameBox frames;
   FrameCounters counters;
+  GapCounter gaps;
   std::optional<FrameStats> stats;
   std::optional<SessionStatus> status;
   std::optional<SceneInfo> scene;
@@ -65,7 +66,6 @@ class Session::Impl {
   std::unique_ptr<Endpoints> endpoints_;
   std::mutex request_mutex_;  // covers tracker_ and the request writer
   RequestTracker tracker_;
-  GapCounter gaps_;  // of the serving thread
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };

@@ -1,9 +1,13 @@
 #include "service/daemon/build_info.h"
 
+#include <fmt/core.h>
+
+#include "service/daemon/revision.h"
+
 namespace bleedsim::daemon {
 
-// BLEEDSIM_... are set for this file alone, so that a new revision does not compile everything again.
+// BLEEDSIM_... and the revision are for this file alone, so that a new revision does not compile everything again.
 std::string buildVersion() { return BLEEDSIM_VERSION; }
-std::string buildId() { return BLEEDSIM_VERSION "-" BLEEDSIM_REVISION " " BLEEDSIM_COMPILER " " BLEEDSIM_BUILD_TYPE; }
+std::string buildId() { return fmt::format("{}-{} {} {}", BLEEDSIM_VERSION, kRevision, BLEEDSIM_COMPILER, BLEEDSIM_BUILD_TYPE); }
 
 }  // namespace bleedsim::daemon

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "service/transport/clock.h"
-#include "service/transport/interfaces.h"
 
 namespace bleedsim::daemon {
 namespace {

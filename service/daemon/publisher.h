@@ -6,11 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "service/daemon/buffer_watch.h"
 #include "service/daemon/channels.h"
 #include "service/daemon/session_guard.h"
 #include "service/dds/frame_encoder.h"
 #include "service/dds/session_encoder.h"
+#include "service/transport/receive_buffer.h"
 #include "service/transport/writer.h"
 
 namespace bleedsim::daemon {
@@ -63,7 +63,7 @@ class Publisher {
   std::int64_t start_stamp_ns_;
   Channels& channels_;
   SessionGuard guard_;
-  BufferWatch buffer_watch_;
+  transport::BufferWatch buffer_watch_;
   Writers writers_;
   dds::FrameEncoder frame_encoder_;
   dds::FrameStatsEncoder stats_encoder_;

@@ -97,6 +97,7 @@ class Collector {
   out_.fault_counters.clear();
   for (const Counter& counter : stats_.fault_counters()) out_.fault_counters.emplace_back(counter.name(), counter.value());
   real_time_factors_ += stats_.real_time_factor();
+  out_.max_behind_s = std::max(out_.max_behind_s, stats_.behind_s());
   ledger_.push_back({Epoch{stats_.session(), stats_.epoch()}, {stats_.seq(), stats_.emitted_ml()}});
   return {};
 }

@@ -29,6 +29,7 @@ struct RecordingSummary {
   double ml_emitted = 0.0;             ///< bled between the first and the last frame, summed over epochs
   double ml_emitted_total = 0.0;       ///< bled since the scene was loaded, at the last frame
   double mean_real_time_factor = 0.0;  ///< as the statistics say, mean over frames
+  double max_behind_s = 0.0;           ///< most wall time that the pacing owed at a frame
   bool replayable = false;             ///< the scene is there, and the journal from number 1 without a gap in each recorded epoch
   std::string reason;                  ///< why it is not replayable; empty when it is
   bool truncated = false;              ///< the file was cut off; figures are of what could be read

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "service/transport/entity.h"
+#include "service/transport/receive_buffer.h"
 
 namespace bleedsim::transport {
 
@@ -69,8 +70,8 @@ std::string configXml(const std::string& interface, bool loopback, const std::st
       "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces>{}</General>"
       "<Discovery>{}<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>100</MaxAutoParticipantIndex>"
       "<SPDPInterval>1s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
-      "<Internal><SocketReceiveBufferSize max=\"4MiB\"/></Internal></Domain></CycloneDDS>",
-      interface, sizes, tag_element);
+      "<Internal><SocketReceiveBufferSize max=\"{}B\"/></Internal></Domain></CycloneDDS>",
+      interface, sizes, tag_element, kReceiveBufferBytes);
 }
 
 Result<std::shared_ptr<DomainShare>> joinDomain(DomainOptions options) {

@@ -22,8 +22,8 @@ struct DomainOptions {
 };
 
 /// Cyclone's configuration. On loopback: 64 KiB datagrams; elsewhere 1460 B, since the loss of one part loses a whole datagram.
-/// Receive buffer up to 4 MiB (never a minimum: an unreachable one fails), lease 3 s and announcements every 1 s, so a killed
-/// peer is noticed within 3 s; up to 100 processes per domain and host.
+/// Receive buffer up to kReceiveBufferBytes (never a minimum: an unreachable one fails), lease 3 s and announcements every 1 s,
+/// so a killed peer is noticed within 3 s; up to 100 processes per domain and host.
 std::string configXml(const std::string& interface, bool loopback, const std::string& tag);
 
 /// A share in a configured domain; the domain goes with its last share.

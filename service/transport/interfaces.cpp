@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
-#include <fstream>
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <sys/socket.h>
@@ -40,12 +39,6 @@ Result<NetworkInterface> findInterface(const std::string& name, const std::vecto
                   fmt::format("the network interface '{}' is down: bring it up or choose another", name)};
   }
   return *found;
-}
-
-std::size_t receiveBufferLimit() {
-  std::ifstream file{"/proc/sys/net/core/rmem_max"};
-  std::size_t bytes = 0;
-  return file >> bytes ? bytes : 0;
 }
 
 }  // namespace bleedsim::transport

@@ -1,7 +1,6 @@
-// The network interfaces of this host and the kernel's receive buffer.
+// The network interfaces of this host.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,9 +19,5 @@ std::vector<NetworkInterface> listInterfaces();
 
 /// The interface of that name; not_found lists the existing ones, unavailable says that it is down.
 Result<NetworkInterface> findInterface(const std::string& name, const std::vector<NetworkInterface>& existing);
-
-/// net.core.rmem_max in bytes, 0 when it cannot be read: the largest receive buffer a process gets. Less than two frames
-/// loses frames.
-std::size_t receiveBufferLimit();
 
 }  // namespace bleedsim::transport

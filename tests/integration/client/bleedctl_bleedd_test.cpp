@@ -1,16 +1,23 @@
 // Every command of bleedctl, as a process of its own, against a real bleedd.
+#include <filesystem>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <sstream>
+#include <unistd.h>
 
+#include "service/transport/wait_set.h"
+#include "service/transport/writer.h"
 #include "tests/integration/client/json_value.h"
 #include "tests/integration/client/running_daemon.h"
 
 namespace bleedsim::client_test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::uint32_t kDomain = 68;
 const std::string kScenes = SCENE_DIR "/";
@@ -83,6 +90,47 @@ TEST_F(BleedctlBleeddTest, ListStatusAndWatchShowTheSession) {
     EXPECT_GE(number(figures, "gaps"), 0.0);
   }
   EXPECT_EQ(count, 3);
+}
+
+TEST_F(BleedctlBleeddTest, WhatWentWrongIsCountedAndShown) {
+  const auto participant = transport::Participant::create({.domain = kDomain});
+  ASSERT_TRUE(participant.ok()) << participant.status().message();
+  auto instrument = transport::Writer<bleed_v1_Instrument>::create(*participant, "theatre");
+  auto waits = transport::WaitSet::create(*participant);
+  ASSERT_TRUE(instrument.ok() && waits.ok() && waits->attachMatches(*instrument, 0).ok());
+  while (instrument->matchedCount() == 0) ASSERT_TRUE(waits->wait(test::kPatience).ok());
+  bleed_v1_Instrument sample{};
+  sample.seq = 1;
+  sample.orientation.w = 1.0;
+  sample.force.z = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE(instrument->write(sample).ok());
+  // Nothing is up there to be pushed.
+  ASSERT_EQ(bleedctl({"force", "--at", "0.04,0.04,0.03", "--radius-mm", "2", "--newtons", "0,0,-1", "--duration", "0.02"}).code,
+            0);
+
+  const auto counted = [](const Json& status) {
+    const Json& counters = member(status, "counters");
+    return number(counters, "instruments_malformed") == 1.0 && number(counters, "force_expired") == 1.0;
+  };
+  const Json status = statusWhere(counted);
+  const double missed = number(member(status, "counters"), "force_without_fluid");
+  EXPECT_GT(missed, 0.0);
+  EXPECT_GT(number(status, "real_time_factor"), 0.0);
+  EXPECT_GE(number(status, "behind_s"), 0.0);
+  EXPECT_THAT(bleedctl({"status"}).output, AllOf(HasSubstr("instruments_malformed 1\n"), HasSubstr("force_expired     1\n"),
+                                                 Not(HasSubstr("requests_refused"))));
+
+  const Json watched = json({"watch", "--count", "1"});
+  EXPECT_EQ(number(member(watched, "fault_counters"), "instruments_malformed"), 1.0);
+  EXPECT_EQ(number(member(watched, "fault_counters"), "force_without_fluid"), missed);
+  EXPECT_THAT(bleedctl({"watch", "--count", "1"}).output,
+              AllOf(HasSubstr("instruments_malformed 1"), HasSubstr("force_expired 1")));
+
+  const std::string file = fmt::format("{}/bleedsim_counted_{}.mcap", testing::TempDir(), getpid());
+  ASSERT_EQ(bleedctl({"record", "-o", file, "--frames", "3"}).code, 0);
+  EXPECT_EQ(number(member(json({"info", file}), "fault_counters"), "instruments_malformed"), 1.0);
+  EXPECT_THAT(bleedctl({"info", file}).output, AllOf(HasSubstr("instruments_malformed 1\n"), HasSubstr("force_expired     1\n")));
+  std::filesystem::remove(file);
 }
 
 TEST_F(BleedctlBleeddTest, WoundsAreAddedMovedChangedAndRemoved) {

@@ -9,12 +9,27 @@ using transport::Reader;
 using transport::Sample;
 using transport::Writer;
 
+namespace {
+
+std::vector<bleed_v1_Counter> wireCounters(const std::vector<std::pair<std::string, std::uint64_t>>& counters) {
+  std::vector<bleed_v1_Counter> out;
+  for (const auto& [name, value] : counters) {
+    bleed_v1_Counter& counter = out.emplace_back();
+    name.copy(counter.name, sizeof counter.name - 1);
+    counter.value = value;
+  }
+  return out;
+}
+
+}  // namespace
+
 struct FakeService::Endpoints {
   Writer<bleed_v1_Status> status;
   Writer<bleed_v1_Scene> scene;
   Writer<bleed_v1_Frame> frame;
   Writer<bleed_v1_FrameStats> stats;
   Writer<bleed_v1_Reply> reply;
+  Writer<bleed_v1_Journal> journal;
   Reader<bleed_v1_Request> request;
   Reader<bleed_v1_Instrument> instrument;
   transport::GuardCondition guard;
@@ -28,16 +43,17 @@ Result<std::unique_ptr<FakeService>> FakeService::start(const transport::Partici
   auto frame = Writer<bleed_v1_Frame>::create(participant, name);
   auto stats = Writer<bleed_v1_FrameStats>::create(participant, name);
   auto reply = Writer<bleed_v1_Reply>::create(participant, name);
+  auto journal = Writer<bleed_v1_Journal>::create(participant, name);
   auto request = Reader<bleed_v1_Request>::create(participant, name);
   auto instrument = Reader<bleed_v1_Instrument>::create(participant, name);
   auto guard = transport::GuardCondition::create(participant);
   auto waits = transport::WaitSet::create(participant);
-  if (!status || !scene || !frame || !stats || !reply || !request || !instrument || !guard || !waits) {
+  if (!status || !scene || !frame || !stats || !reply || !journal || !request || !instrument || !guard || !waits) {
     return Status{StatusCode::io, "could not make the endpoints of the fake service"};
   }
   std::unique_ptr<Endpoints> e{new Endpoints{std::move(*status), std::move(*scene), std::move(*frame), std::move(*stats),
-                                             std::move(*reply), std::move(*request), std::move(*instrument), std::move(*guard),
-                                             std::move(*waits)}};
+                                             std::move(*reply), std::move(*journal), std::move(*request), std::move(*instrument),
+                                             std::move(*guard), std::move(*waits)}};
   for (const Status& attached : {e->waits.attach(e->request, 0), e->waits.attach(e->instrument, 0), e->waits.attach(e->guard, 1),
                                  e->waits.attachMatches(e->frame, 0)}) {
     if (!attached.ok()) return attached;
@@ -83,13 +99,19 @@ void FakeService::serve() {
   }
 }
 
-void FakeService::publishStatus(std::uint32_t state) {
+void FakeService::publishStatus(std::uint32_t state, const std::string& text) {
   bleed_v1_Status status{};
   transport::copyUuid(session, status.session);
   name_.copy(status.session_name, sizeof status.session_name - 1);
   status.state = state;
   status.heartbeat = ++heartbeat_;
   status.pid = getpid();
+  status.real_time_factor = figures.real_time_factor;
+  status.behind_s = figures.behind_s;
+  text.copy(status.text, sizeof status.text - 1);
+  std::vector<bleed_v1_Counter> counters = wireCounters(figures.counters);
+  status.counters._buffer = counters.data();
+  status.counters._length = status.counters._maximum = static_cast<std::uint32_t>(counters.size());
   static_cast<void>(endpoints_->status.write(status).ok());
 }
 
@@ -100,6 +122,7 @@ void FakeService::publishScene(const std::string& scene_name) {
   std::string text = "# " + scene_name;
   scene.scene_text = text.data();
   scene.spacing_m = 0.003;
+  scene.capacity = capacity;
   static_cast<void>(endpoints_->scene.write(scene).ok());
 }
 
@@ -121,15 +144,23 @@ Status FakeService::publishFrame(std::uint64_t seq, std::uint32_t count) {
   frame.attributes = {2, 2, attributes, false};
   frame.payload._buffer = payload.data();
   frame.payload._length = frame.payload._maximum = static_cast<std::uint32_t>(payload.size());
+  if (Status written = endpoints_->frame.write(frame); !written) return written;
+  return publishStats(seq, count);
+}
+
+Status FakeService::publishStats(std::uint64_t seq, std::uint32_t count) {
   bleed_v1_FrameStats stats{};
   transport::copyUuid(session, stats.session);
   stats.seq = seq;
-  stats.step = frame.step;
-  stats.sim_time_s = frame.sim_time_s;
+  stats.step = 10 * seq;
+  stats.sim_time_s = static_cast<double>(seq) / 60.0;
   stats.particles = count;
   stats.emitted_ml = 0.5 * static_cast<double>(seq);
-  stats.real_time_factor = 1.0;
-  if (Status written = endpoints_->frame.write(frame); !written) return written;
+  stats.real_time_factor = figures.real_time_factor;
+  stats.behind_s = figures.behind_s;
+  std::vector<bleed_v1_Counter> counters = wireCounters(figures.counters);
+  stats.fault_counters._buffer = counters.data();
+  stats.fault_counters._length = stats.fault_counters._maximum = static_cast<std::uint32_t>(counters.size());
   return endpoints_->stats.write(stats);
 }
 
@@ -159,6 +190,11 @@ bool FakeService::waitInstruments(std::size_t count) {
 bool FakeService::waitFrameReaders(std::size_t count) {
   std::unique_lock lock{mutex_};
   return changed_.wait_for(lock, std::chrono::seconds{20}, [&] { return frame_readers_ >= count; });
+}
+
+bool FakeService::waitNoFrameReaders() {
+  std::unique_lock lock{mutex_};
+  return changed_.wait_for(lock, std::chrono::seconds{20}, [&] { return frame_readers_ == 0; });
 }
 
 std::vector<std::uint64_t> FakeService::requestSeqs() {

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "service/transport/clock.h"
@@ -29,10 +30,21 @@ class FakeService {
                                                     Judge judge = {});
   ~FakeService();
 
-  void publishStatus(std::uint32_t state = bleed_v1_STATE_RUNNING);
+  /// Put into every status and statistics published after.
+  struct Figures {
+    double real_time_factor = 1.0;
+    double behind_s = 0.0;
+    std::vector<std::pair<std::string, std::uint64_t>> counters{};
+  };
+  Figures figures;
+  std::uint32_t capacity = 0;  ///< put into every scene published after
+
+  void publishStatus(std::uint32_t state = bleed_v1_STATE_RUNNING, const std::string& text = {});
   void publishScene(const std::string& scene_name);
   /// One frame of `count` particles at sim_time_s = seq / 60, and its stats with 0.5 mL for each frame.
   Status publishFrame(std::uint64_t seq, std::uint32_t count = 3);
+  /// The stats of a frame that is lost on its way.
+  Status publishStats(std::uint64_t seq, std::uint32_t count = 3);
   /// A frame whose payload is one byte short.
   Status publishMalformedFrame(std::uint64_t seq);
 
@@ -43,6 +55,8 @@ class FakeService {
   std::vector<bleed_v1_Instrument> instruments();
   /// Blocks until so many readers take frames; false after 20 s.
   bool waitFrameReaders(std::size_t count);
+  /// Blocks until no reader takes frames any more: the next one is not taken for one that has just ended. False after 20 s.
+  bool waitNoFrameReaders();
 
   const transport::Uuid session = transport::drawUuid();
 

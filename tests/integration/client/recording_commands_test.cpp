@@ -120,6 +120,7 @@ TEST_F(RecordingCommandsTest, WhatWasRecordedIsDescribedExportedAndReadBackEqual
   EXPECT_FALSE(member(figures, "truncated").bool_value());
   EXPECT_EQ(text(figures, "session"), "theatre");
   EXPECT_EQ(text(figures, "scene"), "round_wound");
+  EXPECT_EQ(text(figures, "build_id") + "\n", test::runProcess({BLEEDD_PATH, "--version"}).output);
 
   auto reader = recording::RecordingReader::open(file);
   ASSERT_TRUE(reader.ok()) << reader.status().message();
@@ -191,9 +192,59 @@ TEST_F(RecordingCommandsTest, ASessionThatEndsLeavesACompleteFileAndCodeThree) {
   ASSERT_TRUE(record.readLine().has_value());
   ASSERT_EQ(bleedctl({"shutdown"}).code, 0);
   EXPECT_EQ(record.wait(), 3);
-  EXPECT_THAT(record.output(), HasSubstr("ended before the recording was complete"));
+  EXPECT_THAT(record.output(), HasSubstr("session 'theatre' ended: the recording is incomplete"));
   EXPECT_GT(number(info(file), "frames"), 0.0);
   EXPECT_FALSE(member(info(file), "truncated").bool_value());
+}
+
+TEST_F(RecordingCommandsTest, ASuccessorOfAKilledDaemonIsNotRecorded) {
+  const std::string file = path("killed.mcap");
+  const client::Uuid first = daemon_->session().status()->session;
+  test::ChildProcess record{command({"record", "-o", file, "--duration", "1000"}), true};
+  ASSERT_TRUE(record.readLine().has_value());
+  daemon_->process().signal(SIGKILL);
+  ASSERT_EQ(daemon_->process().wait(), 128 + SIGKILL);
+  // The successor runs long before the middleware misses the killed one.
+  const auto successor = RunningDaemon::start(BLEEDD_PATH, SCENE_DIR "/round_wound.textproto", "theatre", kDomain);
+  ASSERT_NE(successor, nullptr);
+  EXPECT_EQ(record.wait(), 3) << record.output();
+  EXPECT_THAT(record.output(), HasSubstr("session 'theatre' is gone, another daemon has taken its name"));
+  EXPECT_EQ(successor->session().status()->state, client::SessionState::running);
+
+  auto reader = recording::RecordingReader::open(file);
+  ASSERT_TRUE(reader.ok()) << reader.status().message();
+  EXPECT_TRUE(reader->verify().ok());
+  const std::string own{first.begin(), first.end()};
+  recording::RecordedMessage message;
+  std::size_t frames = 0;
+  std::size_t scenes = 0;
+  for (auto more = reader->next(message); more.ok() && *more; more = reader->next(message)) {
+    if (message.topic == recording::Topic::scene) ++scenes;
+    if (message.topic != recording::Topic::frame) continue;
+    ++frames;
+    recording::Frame frame;
+    ASSERT_TRUE(recording::decode(message, frame).ok());
+    ASSERT_EQ(frame.session(), own) << "frame " << frame.seq();
+  }
+  EXPECT_GT(frames, 0U);
+  EXPECT_EQ(scenes, 1U);
+  EXPECT_TRUE(member(info(file), "replayable").bool_value()) << text(info(file), "reason");
+}
+
+TEST_F(RecordingCommandsTest, APauseAndItsEndAreAnnounced) {
+  const std::string file = path("paused.mcap");
+  test::ChildProcess record{command({"record", "-o", file, "--duration", "3"}), true};
+  ASSERT_TRUE(record.readLine().has_value());
+  ASSERT_EQ(bleedctl({"pause"}).code, 0);
+  const auto paused = record.readLine();
+  ASSERT_TRUE(paused.has_value());
+  EXPECT_THAT(*paused, HasSubstr("is paused: nothing is recorded until it resumes"));
+  ASSERT_EQ(bleedctl({"resume"}).code, 0);
+  const auto resumed = record.readLine();
+  ASSERT_TRUE(resumed.has_value());
+  EXPECT_THAT(*resumed, HasSubstr("runs again"));
+  EXPECT_EQ(record.wait(), 0) << record.output();
+  EXPECT_GE(number(info(file), "duration_s"), 3.0 - 1e-6);
 }
 
 TEST_F(RecordingCommandsTest, DamagedFilesAreNamedAndReadAsFarAsTheyGo) {

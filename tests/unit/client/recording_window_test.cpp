@@ -5,13 +5,11 @@
 namespace bleedsim::client {
 namespace {
 
-constexpr Uuid kSession{1};
-
 /// Offers frames at `rate` Hz from time `start` until the window is full or `offered` have been; returns how many it kept.
 int keepOf(RecordingWindow& window, double start, double rate, int offered, std::uint32_t epoch = 0) {
   int kept = 0;
   for (int i = 0; i < offered && !window.full(); ++i) {
-    if (window.keep(kSession, epoch, start + i / rate)) ++kept;
+    if (window.keep(epoch, start + i / rate)) ++kept;
   }
   return kept;
 }

@@ -28,6 +28,25 @@ TEST(GapCounter, ANewSessionStartsAfresh) {
   EXPECT_EQ(counter.note(kTwo, 3), 1U);
 }
 
+TEST(GapCounter, KnowsWhatWasSentAndDidNotCome) {
+  GapCounter counter;
+  EXPECT_EQ(counter.overdue(), 0U);
+  counter.told(kOne, 7);
+  EXPECT_EQ(counter.overdue(), 1U) << "what was sent before nobody missed";
+  counter.note(kOne, 7);
+  EXPECT_EQ(counter.overdue(), 0U);
+  counter.told(kOne, 10);
+  EXPECT_EQ(counter.overdue(), 3U);
+  EXPECT_EQ(counter.gaps(), 0U);
+  counter.note(kOne, 11);
+  EXPECT_EQ(counter.overdue(), 0U) << "it came before it was told of";
+  EXPECT_EQ(counter.gaps(), 3U);
+  counter.told(kTwo, 5);
+  EXPECT_EQ(counter.overdue(), 1U) << "another session has numbers of its own";
+  counter.note(kTwo, 5);
+  EXPECT_EQ(counter.overdue(), 0U);
+}
+
 TEST(FrameBox, NewestWinsAndCountsWhatItDropped) {
   FrameBox box{1};
   EXPECT_EQ(box.take(), nullptr);

@@ -22,7 +22,7 @@ TEST(ConfigXml, UsesLargeDatagramsOnLoopbackOnly) {
 }
 
 TEST(ConfigXml, NeverDemandsAMinimumReceiveBuffer) {
-  EXPECT_THAT(configXml("lo", true, ""), HasSubstr("<SocketReceiveBufferSize max=\"4MiB\"/>"));
+  EXPECT_THAT(configXml("lo", true, ""), HasSubstr("<SocketReceiveBufferSize max=\"67108864B\"/>"));
   EXPECT_THAT(configXml("lo", true, ""), Not(HasSubstr("min=")));
 }
 

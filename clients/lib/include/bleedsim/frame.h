@@ -54,6 +54,7 @@ class Frame {
 struct FrameCounters {
   std::uint64_t received = 0;   ///< well-formed frames
   std::uint64_t gaps = 0;       ///< frames missing between received ones, by their seq
+  std::uint64_t overdue = 0;    ///< later frames that the statistics tell of and that have not come: lost, or still on their way
   std::uint64_t dropped = 0;    ///< received, then overwritten by newer ones before anyone took them
   std::uint64_t malformed = 0;  ///< refused: lengths or values that contradict each other
 };

@@ -20,19 +20,26 @@ struct RecordingLimits {
 
 struct RecordingProgress {
   std::uint64_t frames = 0;
-  std::uint64_t gaps = 0;       ///< frames lost on the way
-  std::uint64_t malformed = 0;  ///< frames that contradicted themselves, left out
-  std::uint32_t particles = 0;  ///< of the last frame
-  double recorded_s = 0.0;      ///< simulated, over all epochs
-  std::uint64_t bytes = 0;      ///< in the file so far
-  bool done = false;            ///< a limit is reached, the session is gone or the file cannot be written
-  bool session_gone = false;
+  std::uint64_t gaps = 0;                      ///< frames lost on the way
+  std::uint64_t malformed = 0;                 ///< samples that contradicted themselves, left out
+  std::uint32_t particles = 0;                 ///< of the last frame
+  double recorded_s = 0.0;                     ///< simulated, over all epochs
+  std::uint64_t bytes = 0;                     ///< in the file so far
+  bool done = false;                           ///< a limit is reached, the session is gone or the file cannot be written
+  bool complete = false;                       ///< a limit is reached
+  bool session_gone = false;                   ///< `state` is stopped when it said so, else it was lost
+  bool replaced = false;                       ///< another daemon of the same name was heard; nothing of it is recorded
+  SessionState state = SessionState::unknown;  ///< of the last status; frames come while it is running
+  std::string state_text{};                    ///< what the session says about it
+  std::string buffer_warning{};                ///< why frames may be lost on this host; empty: nothing speaks for it
 };
 
-/// Move-only, thread-safe. Reads reliably with a deep history on a thread of its own.
+/// Move-only, thread-safe. Reads reliably with a deep history on a thread of its own. It belongs to one daemon: when that is
+/// gone, the recording has ended, and another daemon of the same session name never comes into the file.
 class Recorder {
  public:
-  /// The session has to exist: see Client::find. io: the file cannot be created.
+  /// The session has to exist: see Client::find. Of several daemons that the client knows under the name, the one that started
+  /// last is recorded. io: the file cannot be created.
   static Result<Recorder> start(Client& client, const std::string& session, const std::string& path,
                                 const RecordingLimits& limits);
   Recorder(Recorder&&) noexcept;

@@ -1,0 +1,135 @@
+#include "clients/bleedctl/record_command.h"
+
+#include <cstdio>
+#include <fmt/core.h>
+#include <memory>
+#include <unistd.h>
+
+#include "bleedsim/recorder.h"
+#include "clients/bleedctl/json.h"
+#include "clients/bleedctl/record_narrator.h"
+#include "clients/bleedctl/stop_signal.h"
+
+namespace bleedsim::bleedctl {
+namespace {
+
+constexpr std::chrono::milliseconds kTick{100};
+
+constexpr const char* kRecordText =
+    "Progress and news go to stderr: also that the session is paused, when nothing is recorded until it resumes. The\n"
+    "recording belongs to the daemon it began with; another one that takes the session's name is never recorded.\n"
+    "Exit code 0: --duration or --frames was reached; without either, ended by Ctrl-C, SIGTERM or a shutdown of the\n"
+    "session. 130: Ctrl-C or SIGTERM came before the limit. 3: the session ended before the limit, or was lost. The file\n"
+    "is closed properly and holds what came in each case; --json tells 'complete' and 'ended_by' (limit, interrupt,\n"
+    "session, file).\n\n";
+
+struct RecordArguments {
+  std::string path;
+  double duration_s = 0.0;
+  std::uint64_t frames = 0;
+  double rate_hz = 0.0;
+};
+
+/// How a recording ended, for people and scripts.
+struct Outcome {
+  ExitCode code = kDone;
+  const char* ended_by = "limit";
+  std::string problem;  ///< empty when the recording is all that was asked for
+};
+
+std::string howItEnded(const client::RecordingProgress& progress) {
+  if (progress.state == client::SessionState::stopped) return "ended";
+  return progress.replaced ? "is gone, another daemon has taken its name" : "is gone, its daemon was lost";
+}
+
+Outcome judge(const std::string& session, const client::RecordingProgress& progress, const client::RecordingLimits& limits,
+              const Status& closed) {
+  const bool limited = limits.frames.has_value() || limits.duration_s.has_value();
+  if (!closed.ok()) return {kFile, "file", closed.message()};
+  if (progress.complete) return {};
+  if (progress.session_gone) {
+    if (!limited && progress.state == client::SessionState::stopped) return {kDone, "session", {}};
+    return {kNoSession, "session", fmt::format("session '{}' {}", session, howItEnded(progress))};
+  }
+  return limited ? Outcome{kInterrupted, "interrupt", "interrupted"} : Outcome{kDone, "interrupt", {}};
+}
+
+void report(const Context& context, const std::string& path, const client::RecordingProgress& progress, const Outcome& outcome) {
+  if (context.json) {
+    JsonObject json;
+    json.add("file", path).add("frames", progress.frames).add("gaps", progress.gaps).add("malformed", progress.malformed);
+    json.add("last_particles", progress.particles).add("duration_s", progress.recorded_s).add("bytes", progress.bytes);
+    json.add("complete", outcome.problem.empty()).add("ended_by", outcome.ended_by);
+    fmt::print("{}\n", json.add("session_gone", progress.session_gone).text());
+    return;
+  }
+  const std::string malformed = progress.malformed > 0 ? fmt::format(", {} malformed", progress.malformed) : std::string{};
+  const std::string complete = outcome.problem.empty() ? std::string{} : "; incomplete: " + outcome.problem;
+  fmt::print("{}: {} frames, {} gaps{}, {:.3f} s, {} particles, {:.1f} MB{}\n", path, progress.frames, progress.gaps, malformed,
+             progress.recorded_s, progress.particles, static_cast<double>(progress.bytes) * 1e-6, complete);
+}
+
+void print(const std::string& text) {
+  if (!text.empty()) fmt::print(stderr, "{}", text);
+}
+
+/// Shows the progress until the recording is done or a signal comes.
+void follow(client::Recorder& recorder, RecordNarrator& narrator, const client::RecordingLimits& limits) {
+  for (bool interrupted = false; !interrupted && !recorder.progress().done;) {
+    interrupted = waitForStopSignal(kTick);
+    const client::RecordingProgress progress = recorder.progress();
+    print(narrator.news(progress));
+    print(narrator.bar(progress, limits));
+  }
+}
+
+int runRecord(const Context& context, const std::string& path, const client::RecordingLimits& limits) {
+  Result<client::Client> client = client::Client::create(context.connection);
+  if (!client) return fail(client.status());
+  const Result<client::SessionStatus> session = client->find(context.session, context.timeout());
+  if (!session) return fail(session.status());
+  holdStopSignals();
+  Result<client::Recorder> recorder = client::Recorder::start(*client, session->name, path, limits);
+  if (!recorder) {
+    return recorder.status().code() == StatusCode::io ? fail(kFile, recorder.status().message()) : fail(recorder.status());
+  }
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  RecordNarrator narrator{session->name, path, terminal};
+  follow(*recorder, narrator, limits);
+  const Status closed = recorder->close();
+  const client::RecordingProgress progress = recorder->progress();
+  const Outcome outcome = judge(session->name, progress, limits, closed);
+  if (terminal) fmt::print(stderr, "\n");
+  report(context, path, progress, outcome);
+  if (outcome.code == kDone) return kDone;
+  if (outcome.code == kFile) return fail(kFile, outcome.problem);
+  return fail(outcome.code, fmt::format("{}: the recording is incomplete, '{}' holds what came", outcome.problem, path));
+}
+
+}  // namespace
+
+void addRecord(CLI::App& app, Context& context) {
+  CLI::App* record = app.add_subcommand("record", "Record a session into an MCAP file until a limit or Ctrl-C");
+  record->footer(kRecordText + record->get_footer());  // what all commands say follows
+  const auto v = std::make_shared<RecordArguments>();
+  record->add_option("-o,--output", v->path, "File to write, replaced if it exists")->required()->type_name("FILE");
+  CLI::Option* duration = record->add_option("--duration", v->duration_s, "Simulated seconds from the first frame")
+                              ->check(finiteIn(1e-9, 1e9))
+                              ->type_name("S");
+  CLI::Option* frames = record->add_option("--frames", v->frames, "Number of frames")
+                            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40U))
+                            ->type_name("N");
+  duration->excludes(frames);
+  CLI::Option* rate = record->add_option("--rate", v->rate_hz, "Record at most so many frames per simulated second")
+                          ->check(finiteIn(1e-9, 1e6))
+                          ->type_name("HZ");
+  record->callback([&context, v, duration, frames, rate] {
+    client::RecordingLimits limits;
+    if (duration->count() > 0) limits.duration_s = v->duration_s;
+    if (frames->count() > 0) limits.frames = v->frames;
+    if (rate->count() > 0) limits.rate_hz = v->rate_hz;
+    context.action = [&context, path = v->path, limits] { return runRecord(context, path, limits); };
+  });
+}
+
+}  // namespace bleedsim::bleedctl
