@@ -92,10 +92,6 @@ std::string checkVec3(const std::string& text) {
   return parsed.ok() ? std::string{} : parsed.status().message();
 }
 
-std::string checkFinite(const std::string& text) {
-  return parseNumber(text) ? std::string{} : fmt::format("'{}' is not a finite number", text);
-}
-
 CLI::Validator finiteIn(double lower, double upper) {
   return {[lower, upper](std::string& text) { return checkNumberText(text, lower, upper).message(); }, {}};
 }

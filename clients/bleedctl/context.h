@@ -46,8 +46,7 @@ Result<client::Vec3> parseVec3(const std::string& text);
 /// A CLI11 check that refuses anything but three finite numbers.
 std::string checkVec3(const std::string& text);
 
-/// CLI11 checks of floating options: a finite number, and one from `lower` to `upper`.
-std::string checkFinite(const std::string& text);
+/// A CLI11 check of a floating option: a finite number from `lower` to `upper`.
 CLI::Validator finiteIn(double lower, double upper);
 
 /// One function for each group of commands; each adds its commands to the program.

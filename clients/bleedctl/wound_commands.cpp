@@ -1,13 +1,17 @@
 // wound add, move, set and remove; force.
+#include <cmath>
 #include <fmt/core.h>
 #include <memory>
 
 #include "clients/bleedctl/context.h"
+#include "service/status/quantity_limits.h"
 
 namespace bleedsim::bleedctl {
 namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
+
+CLI::Validator inRange(const Range& range, double unit = 1.0) { return finiteIn(range.lower / unit, range.upper / unit); }
 
 /// What the options of these commands hold, as they were written.
 struct Values {
@@ -21,6 +25,25 @@ struct Values {
   double duration_s = 0.1;
   std::uint32_t id = 0;
 };
+
+std::string checkPosition(const std::string& text) {
+  const Result<client::Vec3> position = parseVec3(text);
+  if (!position) return position.status().message();
+  for (const double coordinate : *position) {
+    if (coordinate < kCoordinate.lower || coordinate > kCoordinate.upper) {
+      return fmt::format("'{}' is too far away: use coordinates from {:g} to {:g} m", text, kCoordinate.lower, kCoordinate.upper);
+    }
+  }
+  return {};
+}
+
+std::string checkNewtons(const std::string& text) {
+  const Result<client::Vec3> newtons = parseVec3(text);
+  if (!newtons) return newtons.status().message();
+  const double length = std::hypot((*newtons)[0], (*newtons)[1], (*newtons)[2]);
+  if (length <= kForce.upper) return {};
+  return fmt::format("'{}' is a force of {:g} N: use at most {:g} N", text, length, kForce.upper);
+}
 
 client::Vec3 vec3(const std::string& checked) { return parseVec3(checked).value(); }
 
@@ -37,11 +60,14 @@ std::function<int()> command(const Context& context, const std::string& done, Se
 void addAdd(CLI::App& wound, Context& context) {
   CLI::App* add = wound.add_subcommand("add", "Open a round wound; prints its ID");
   const auto v = std::make_shared<Values>();
-  add->add_option("--at", v->at, "Centre in m")->required()->check(checkVec3)->type_name("X,Y,Z");
-  add->add_option("--radius-mm", v->radius_mm, "Radius in mm")->required()->check(checkFinite)->type_name("R");
-  CLI::Option* flow = add->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(checkFinite)->type_name("Q");
+  add->add_option("--at", v->at, "Centre in m")->required()->check(checkPosition)->type_name("X,Y,Z");
+  add->add_option("--radius-mm", v->radius_mm, "Radius in mm")
+      ->required()
+      ->check(inRange(kPatchLength, kMetresPerMillimetre))
+      ->type_name("R");
+  CLI::Option* flow = add->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(inRange(kFlow))->type_name("Q");
   CLI::Option* pressure = add->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg instead of a flow")
-                              ->check(checkFinite)
+                              ->check(inRange(kInletPressure))
                               ->type_name("P");
   flow->excludes(pressure);
   add->add_option("--normal", v->normal, "Outward direction, of any length; default 0,0,1")->check(checkVec3)->type_name("X,Y,Z");
@@ -60,7 +86,7 @@ void addMove(CLI::App& wound, Context& context) {
   CLI::App* move = wound.add_subcommand("move", "Move a wound");
   const auto v = std::make_shared<Values>();
   move->add_option("ID", v->id, "ID of the wound")->required()->type_name("");
-  move->add_option("--at", v->at, "New centre in m")->required()->check(checkVec3)->type_name("X,Y,Z");
+  move->add_option("--at", v->at, "New centre in m")->required()->check(checkPosition)->type_name("X,Y,Z");
   move->add_option("--normal", v->normal, "New outward direction")->check(checkVec3)->type_name("X,Y,Z");
   move->callback([&context, v] {
     client::WoundChange change{.position = vec3(v->at)};
@@ -74,13 +100,15 @@ void addSet(CLI::App& wound, Context& context) {
   CLI::App* set = wound.add_subcommand("set", "Change a wound's flow, pressure, radius, direction or name");
   const auto v = std::make_shared<Values>();
   set->add_option("ID", v->id, "ID of the wound")->required()->type_name("");
-  CLI::Option* flow = set->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(checkFinite)->type_name("Q");
-  CLI::Option* pressure =
-      set->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg")->check(checkFinite)->type_name("P");
+  CLI::Option* flow = set->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(inRange(kFlow))->type_name("Q");
+  CLI::Option* pressure = set->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg")
+                              ->check(inRange(kInletPressure))
+                              ->type_name("P");
   flow->excludes(pressure);
-  CLI::Option* radius =
-      set->add_option("--radius-mm", v->radius_mm, "Radius in mm: the wound becomes round")->check(checkFinite)->type_name("R");
-  CLI::Option* at = set->add_option("--at", v->at, "Centre in m")->check(checkVec3)->type_name("X,Y,Z");
+  CLI::Option* radius = set->add_option("--radius-mm", v->radius_mm, "Radius in mm: the wound becomes round")
+                            ->check(inRange(kPatchLength, kMetresPerMillimetre))
+                            ->type_name("R");
+  CLI::Option* at = set->add_option("--at", v->at, "Centre in m")->check(checkPosition)->type_name("X,Y,Z");
   CLI::Option* normal = set->add_option("--normal", v->normal, "Outward direction")->check(checkVec3)->type_name("X,Y,Z");
   CLI::Option* name = set->add_option("--name", v->name, "Name of the wound")->type_name("NAME");
   set->callback([&context, v, flow, pressure, radius, at, normal, name] {
@@ -111,10 +139,16 @@ void addRemove(CLI::App& wound, Context& context) {
 void addForce(CLI::App& app, Context& context) {
   CLI::App* force = app.add_subcommand("force", "Push the blood within a radius with a total force");
   const auto v = std::make_shared<Values>();
-  force->add_option("--at", v->at, "Centre in m")->required()->check(checkVec3)->type_name("X,Y,Z");
-  force->add_option("--radius-mm", v->radius_mm, "Reach in mm")->required()->check(checkFinite)->type_name("R");
-  force->add_option("--newtons", v->newtons, "Force in N")->required()->check(checkVec3)->type_name("X,Y,Z");
-  force->add_option("--duration", v->duration_s, "Simulated seconds")->check(checkFinite)->type_name("S")->capture_default_str();
+  force->add_option("--at", v->at, "Centre in m")->required()->check(checkPosition)->type_name("X,Y,Z");
+  force->add_option("--radius-mm", v->radius_mm, "Reach in mm")
+      ->required()
+      ->check(inRange(kForceRadius, kMetresPerMillimetre))
+      ->type_name("R");
+  force->add_option("--newtons", v->newtons, "Force in N")->required()->check(checkNewtons)->type_name("X,Y,Z");
+  force->add_option("--duration", v->duration_s, "Simulated seconds")
+      ->check(inRange(kForceDuration))
+      ->type_name("S")
+      ->capture_default_str();
   force->callback([&context, v] {
     const client::ForceSpec spec{.position = vec3(v->at),
                                  .radius_m = v->radius_mm * kMetresPerMillimetre,

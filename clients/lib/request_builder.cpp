@@ -7,12 +7,13 @@
 
 #include "clients/lib/wire_text.h"
 #include "service/status/printable_text.h"
+#include "service/status/quantity_limits.h"
 #include "service/status/request_limits.h"
 
 namespace bleedsim::client {
 namespace {
 
-constexpr std::size_t kMaxOutline = 512;
+constexpr std::size_t kMaxOutline = 2 * kMaxPatchPoints;
 
 bleed_v1_Vec3 wireVec3(const Vec3& v) { return {v[0], v[1], v[2]}; }
 

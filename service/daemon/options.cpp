@@ -38,11 +38,11 @@ CLI::Validator finiteIn(double lower, double upper) {
 Result<dds::Pace> parsePace(const std::string& text) {
   if (text == "realtime") return dds::Pace{dds::PaceMode::real_time, 1.0};
   if (text == "max") return dds::Pace{dds::PaceMode::maximum, 1.0};
-  if (checkNumberText(text, dds::kPaceLimits.lower, dds::kPaceLimits.upper)) {
+  if (checkNumberText(text, dds::kPaceRange.lower, dds::kPaceRange.upper)) {
     return dds::Pace{dds::PaceMode::factor, *parseNumber(text)};
   }
   return Status{StatusCode::invalid_argument, fmt::format("pace '{}': use realtime, max or a factor from {:g} to {:g}", text,
-                                                          dds::kPaceLimits.lower, dds::kPaceLimits.upper)};
+                                                          dds::kPaceRange.lower, dds::kPaceRange.upper)};
 }
 
 std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) {
@@ -73,7 +73,7 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
       ->type_name("PACE")
       ->capture_default_str();
   auto* rate_option = app.add_option("--frame-rate", frame_rate, "Frames per simulated second; without it, the scene's")
-                          ->check(finiteIn(dds::kFrameRateLimits.lower, dds::kFrameRateLimits.upper))
+                          ->check(finiteIn(dds::kFrameRateRange.lower, dds::kFrameRateRange.upper))
                           ->type_name("HZ");
   app.add_option("--threads", options.world.threads, "Threads of the solver; results do not depend on it")
       ->check(CLI::Range(1, kMaxThreads))

@@ -1,13 +1,14 @@
 #include "service/daemon/scene_loader.h"
 
 #include <exception>
+#include <spdlog/spdlog.h>
 #include <utility>
 
 namespace bleedsim::daemon {
 namespace {
 
 Result<LoadedScene> buildSwitched(const SceneJob& job, sph::WorldOptions options) {
-  Result<scene::SceneDescription> changed = scene::changeEffect(*job.known, job.effect->change);
+  Result<scene::SceneDescription> changed = scene::changeEffect(*job.known, job.effect->change, job.effect->speed_of_sound);
   if (!changed) return changed.status();
   options.speed_of_sound = job.effect->speed_of_sound;
   Result<std::unique_ptr<sph::World>> world = sph::createWorld(changed->world, options);
@@ -20,7 +21,11 @@ Result<LoadedScene> build(const SceneJob& job, const sph::WorldOptions& options)
   std::shared_ptr<const scene::SceneDescription> description = job.known;
   if (!description) {
     Result<scene::SceneDescription> parsed = scene::parseScene(job.text);
-    if (!parsed) return parsed.status();
+    if (!parsed) {
+      // Of all problems a reply has room for the first only.
+      spdlog::warn("load_scene refused: {}", parsed.status().message());
+      return parsed.status();
+    }
     description = std::make_shared<const scene::SceneDescription>(std::move(*parsed));
   }
   Result<std::unique_ptr<sph::World>> world = sph::createWorld(description->world, options);

@@ -39,7 +39,7 @@ struct SceneJob {
 /// Runs on the loader's thread. invalid_argument: the scene has problems.
 using SceneFactory = std::function<Result<LoadedScene>(const SceneJob&)>;
 
-/// The factory of the daemon: scene::parseScene and sph::createWorld.
+/// The factory of the daemon: scene::parseScene and sph::createWorld. All problems of a text go to the log.
 SceneFactory worldFactory(sph::WorldOptions options);
 
 /// One job at a time.

@@ -20,8 +20,8 @@ enum class ServiceCounter {
   instrument_samples,     ///< samples on the instrument topic
   instruments_malformed,  ///< with a value out of range
   instruments_dropped,    ///< too many tools, the command queue full, or not newer than the one before
-  instruments_refused,    ///< refused by the world, e.g. without the applied-force effect
-  instruments_ended,      ///< expired or lost
+  instruments_refused,    ///< refused by the world: out of its domain, without the applied-force effect, in a scene being loaded
+  instruments_ended,      ///< silent, refused after they had pushed, or lost
   journal_lost,           ///< inputs that the journal had no room for
   replies_lost,           ///< replies that found no room; the client asks again
   write_failures,         ///< samples that the middleware did not take

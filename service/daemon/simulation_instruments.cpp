@@ -26,8 +26,8 @@ void Simulation::applyInstruments() {
       continue;
     }
     channels_.counters.add(ServiceCounter::instruments_refused);
-    // A tool that never pushed leaves no trace; one that did keeps its last accepted push until it falls silent.
-    if (!tool.applied) instruments_.remove(--i);
+    // A tool that never pushed leaves no trace. One that did pushes no longer where it was: it may have left the domain.
+    endInstrument(--i, dds::InstrumentEndReason::expired);
   }
 }
 

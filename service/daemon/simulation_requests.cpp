@@ -151,7 +151,7 @@ Result<sph::Applied> Simulation::setOutput(const dds::SetOutput& output) {
 void Simulation::answerLoad(PendingLoad& load, const Status& status) {
   dds::Reply reply;
   reply.key = load.request.key;
-  reply.applied_step = status ? 0 : world_->stepCount();
+  reply.applied_step = status ? 0 : world_->stepCount() + 1;
   reply.sim_time = world_->time();
   reply.epoch = epoch_;
   reply.receive_stamp_ns = load.request.receive_stamp_ns;

@@ -17,12 +17,12 @@ Result<Action> asAction(Result<T> decoded) {
 }
 
 Result<PushForce> decodeForce(const bleed_v1_Force& sample) {
-  const Result<sph::Vec3> position = checkVector("force.position", sample.position, kPositionLimits);
+  const Result<sph::Vec3> position = checkVector("force.position", sample.position, kCoordinate);
   if (!position) return position.status();
-  if (Status radius = checkNumber("force.radius_m", sample.radius_m, kLengthLimits); !radius) return radius;
-  const Result<sph::Vec3> newtons = checkVector("force.newtons", sample.newtons, kForceLimits);
+  if (Status radius = checkNumber("force.radius_m", sample.radius_m, kForceRadius); !radius) return radius;
+  const Result<sph::Vec3> newtons = checkLength("force.newtons", sample.newtons, kForce);
   if (!newtons) return newtons.status();
-  if (Status duration = checkNumber("force.duration_s", sample.duration_s, kDurationLimits); !duration) return duration;
+  if (Status duration = checkNumber("force.duration_s", sample.duration_s, kForceDuration); !duration) return duration;
   return PushForce{*position, sample.radius_m, *newtons, sample.duration_s};
 }
 
@@ -38,7 +38,7 @@ Result<SetPace> decodePace(const bleed_v1_Pace& sample) {
     case bleed_v1_PACE_MAXIMUM:
       return SetPace{{PaceMode::maximum, 1.0}};
     case bleed_v1_PACE_FACTOR: {
-      if (Status factor = checkNumber("pace.factor", sample.factor, kPaceLimits); !factor) return factor;
+      if (Status factor = checkNumber("pace.factor", sample.factor, kPaceRange); !factor) return factor;
       return SetPace{{PaceMode::factor, sample.factor}};
     }
     default:
@@ -57,7 +57,7 @@ bool isSet(const bool& flag) {
 Result<SetOutput> decodeOutput(const bleed_v1_Output& sample) {
   SetOutput out;
   if (sample.rate_hz != 0.0) {
-    if (Status rate = checkNumber("output.rate_hz", sample.rate_hz, kFrameRateLimits); !rate) return rate;
+    if (Status rate = checkNumber("output.rate_hz", sample.rate_hz, kFrameRateRange); !rate) return rate;
     out.frame_rate = sample.rate_hz;
   }
   if (!isSet(sample.set_attributes)) return out;

@@ -9,29 +9,29 @@
 namespace bleedsim::dds {
 namespace {
 
-Result<std::vector<sph::Vec2>> decodeOutline(const dds_sequence_double& outline, std::uint32_t min_points) {
+Result<std::vector<sph::Vec2>> decodeOutline(const dds_sequence_double& outline, std::size_t min_points) {
   if (outline._length % 2 != 0) {
     return Status{StatusCode::invalid_argument,
                   fmt::format("wound.outline has {} numbers: use pairs of u and v", outline._length)};
   }
   const std::uint32_t count = outline._length / 2;
-  if (count < min_points || count > kMaxOutlinePoints || outline._buffer == nullptr) {
+  if (count < min_points || count > kMaxPatchPoints || outline._buffer == nullptr) {
     return Status{StatusCode::invalid_argument,
-                  fmt::format("wound.outline has {} points: use {} to {}", count, min_points, kMaxOutlinePoints)};
+                  fmt::format("wound.outline has {} points: use {} to {}", count, min_points, kMaxPatchPoints)};
   }
   std::vector<sph::Vec2> points;
   points.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const double* pair = outline._buffer + 2 * std::size_t{i};
-    if (Status u = checkNumber(fmt::format("wound.outline[{}].u", i), pair[0], kOutlineLimits); !u) return u;
-    if (Status v = checkNumber(fmt::format("wound.outline[{}].v", i), pair[1], kOutlineLimits); !v) return v;
+    if (Status u = checkNumber(fmt::format("wound.outline[{}].u", i), pair[0], kPatchCoordinate); !u) return u;
+    if (Status v = checkNumber(fmt::format("wound.outline[{}].v", i), pair[1], kPatchCoordinate); !v) return v;
     points.emplace_back(pair[0], pair[1]);
   }
   return points;
 }
 
 Result<sph::PatchShape> decodeShape(const bleed_v1_Wound& sample) {
-  const auto length = [](std::string_view field, double value) { return checkNumber(field, value, kLengthLimits); };
+  const auto length = [](std::string_view field, double value) { return checkNumber(field, value, kPatchLength); };
   switch (sample.shape) {
     case bleed_v1_SHAPE_DISC: {
       if (Status radius = length("wound.radius_m", sample.radius_m); !radius) return radius;
@@ -62,17 +62,19 @@ Result<sph::PatchShape> decodeShape(const bleed_v1_Wound& sample) {
 Result<sph::WoundDrive> decodeDrive(const bleed_v1_Wound& sample) {
   switch (sample.drive) {
     case bleed_v1_DRIVE_FLOW: {
-      if (Status flow = checkNumber("wound.flow_ml_per_s", sample.flow_ml_per_s, kFlowLimits); !flow) return flow;
+      if (Status flow = checkNumber("wound.flow_ml_per_s", sample.flow_ml_per_s, kFlow); !flow) return flow;
       return sph::WoundDrive{sph::FlowDrive{cubicMetresFromMl(sample.flow_ml_per_s)}};
     }
     case bleed_v1_DRIVE_PRESSURE: {
-      if (Status pressure = checkNumber("wound.pressure_mmhg", sample.pressure_mmhg, kPressureLimits); !pressure) return pressure;
+      if (Status pressure = checkNumber("wound.pressure_mmhg", sample.pressure_mmhg, kInletPressure); !pressure) return pressure;
       const double coefficient = sample.discharge_coefficient;
-      if (Status discharge = checkNumber("wound.discharge_coefficient", coefficient, kDischargeLimits); !discharge) {
+      if (coefficient == 0.0) {
+        return sph::WoundDrive{sph::PressureDriveSettings{pascalsFromMmHg(sample.pressure_mmhg), kDefaultDischargeCoefficient}};
+      }
+      if (Status discharge = checkNumber("wound.discharge_coefficient", coefficient, kDischargeOrDefault); !discharge) {
         return discharge;
       }
-      return sph::WoundDrive{sph::PressureDriveSettings{pascalsFromMmHg(sample.pressure_mmhg),
-                                                        coefficient > 0.0 ? coefficient : kDefaultDischargeCoefficient}};
+      return sph::WoundDrive{sph::PressureDriveSettings{pascalsFromMmHg(sample.pressure_mmhg), coefficient}};
     }
     default:
       return Status{StatusCode::invalid_argument, fmt::format("wound.drive is {}: use 0 (flow) or 1 (pressure)", sample.drive)};
@@ -96,7 +98,7 @@ Result<sph::Vec3> decodeTangent(const bleed_v1_Vec3& tangent) {
 Result<sph::WoundDescription> decodeWound(const bleed_v1_Wound& sample) {
   Result<std::string> name = decodeName(sample);
   if (!name) return name.status();
-  const Result<sph::Vec3> position = checkVector("wound.position", sample.position, kPositionLimits);
+  const Result<sph::Vec3> position = checkVector("wound.position", sample.position, kCoordinate);
   if (!position) return position.status();
   const Result<sph::Vec3> normal = checkDirection("wound.normal", sample.normal);
   if (!normal) return normal.status();
@@ -126,7 +128,7 @@ Result<sph::UpdateWound> decodeWoundUpdate(const bleed_v1_WoundUpdate& sample) {
     update.name = std::move(*name);
   }
   if ((sample.fields & bleed_v1_WOUND_FIELD_POSITION) != 0) {
-    const Result<sph::Vec3> position = checkVector("wound.position", sample.wound.position, kPositionLimits);
+    const Result<sph::Vec3> position = checkVector("wound.position", sample.wound.position, kCoordinate);
     if (!position) return position.status();
     update.position = *position;
   }

@@ -51,7 +51,7 @@ constexpr ReplyCode replyCode(StatusCode code) {
 struct Reply {
   RequestKey key;
   ReplyCode code = ReplyCode::accepted;
-  std::uint64_t applied_step = 0;  ///< the first step that used the request, or the coming one
+  std::uint64_t applied_step = 0;  ///< the first step that used the request, or the coming one; 0: a new world
   double sim_time = 0.0;           ///< s
   std::uint32_t epoch = 0;
   std::uint32_t object_id = 0;  ///< of the wound added or touched, 0: none

@@ -10,11 +10,14 @@
 
 namespace bleedsim::dds {
 
-/// ok if `value` is finite and within `limits`, both ends included.
-Status checkNumber(std::string_view field, double value, const Limits& limits);
+/// ok if `value` is finite and within `range`, both ends included.
+Status checkNumber(std::string_view field, double value, const Range& range);
 
 /// All three components by checkNumber().
-Result<sph::Vec3> checkVector(std::string_view field, const bleed_v1_Vec3& value, const Limits& limits);
+Result<sph::Vec3> checkVector(std::string_view field, const bleed_v1_Vec3& value, const Range& range);
+
+/// A vector whose length is within `range`.
+Result<sph::Vec3> checkLength(std::string_view field, const bleed_v1_Vec3& value, const Range& range);
 
 /// A vector whose length can be divided by, made of length one.
 Result<sph::Vec3> checkDirection(std::string_view field, const bleed_v1_Vec3& value);

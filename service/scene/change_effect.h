@@ -1,6 +1,7 @@
 // An effect of a running scene is switched, or gets other settings.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "service/scene/scene.h"
@@ -19,6 +20,8 @@ struct EffectChange {
 /// settings or of the combination, short enough for a reply.
 /// An effect that goes off takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves
 /// effects.auto: who switches by hand has decided.
-Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change);
+/// `speed_of_sound` (m/s) is that of the world that runs and stays; without it the changed scene's own.
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change,
+                                      std::optional<double> speed_of_sound = {});
 
 }  // namespace bleedsim::scene

@@ -18,12 +18,6 @@ std::vector<sph::Vec2> toPoints(const google::protobuf::RepeatedPtrField<Vec2>& 
   return result;
 }
 
-sph::Domain toDomain(const Domain& domain) {
-  return {.lower = toVec3(domain.lower_m()),
-          .upper = toVec3(domain.upper_m()),
-          .periodic = {domain.periodic_x(), domain.periodic_y(), domain.periodic_z()}};
-}
-
 sph::TissueDescription toTissue(const Tissue& tissue) {
   sph::TissueDescription result;
   result.name = tissue.name();
@@ -87,10 +81,18 @@ sph::FluidBlock toFluidBlock(const FluidBlock& block) {
   return result;
 }
 
-sph::WorldDescription toWorld(const Scene& scene) {
+}  // namespace
+
+sph::Domain convertDomain(const Domain& domain) {
+  return {.lower = toVec3(domain.lower_m()),
+          .upper = toVec3(domain.upper_m()),
+          .periodic = {domain.periodic_x(), domain.periodic_y(), domain.periodic_z()}};
+}
+
+sph::WorldDescription convertWorld(const Scene& scene) {
   sph::WorldDescription world;
   world.seed = scene.seed();
-  world.domain = toDomain(scene.domain());
+  world.domain = convertDomain(scene.domain());
   world.capacity = scene.domain().capacity();
   world.spacing = scene.resolution().spacing_m();
   world.support_ratio = scene.resolution().support_ratio();
@@ -114,13 +116,11 @@ sph::WorldDescription toWorld(const Scene& scene) {
   return world;
 }
 
-}  // namespace
-
 SceneDescription convert(const Scene& scene) {
   return {.name = scene.name(),
           .description = scene.description(),
           .frame_id = scene.frame_id(),
-          .world = toWorld(scene),
+          .world = convertWorld(scene),
           .frame_rate = scene.output().frame_rate_hz(),
           .attributes = convertAttributes(scene.output()),
           .instrument_expiry = scene.commands().instrument_expiry_s(),

@@ -7,7 +7,6 @@
 #include "service/scene/finish_scene.h"
 #include "service/scene/read_text.h"
 #include "service/scene/validate.h"
-#include "service/sph/literal_model.h"
 #include "service/sph/world.h"
 
 namespace bleedsim::scene {
@@ -29,14 +28,12 @@ void decide(const Scene& message, SceneDescription& description) {
 
 }  // namespace
 
-Result<SceneDescription> finishScene(Scene& message, ProblemList& problems) {
+Result<SceneDescription> finishScene(Scene& message, ProblemList& problems, std::optional<double> speed_of_sound) {
   fillDefaults(message);
   validate(message, problems);
+  validateWorld(message, speed_of_sound, problems);
   if (!problems.empty()) return problems.toStatus();
   SceneDescription description = convert(message);
-  if (Status status = sph::checkLiteral(description.world); !status.ok()) problems.add("model", status.message());
-  if (Status status = sph::checkPlanar(description.world); !status.ok()) problems.add("domain.planar", status.message());
-  if (!problems.empty()) return problems.toStatus();
   description.normalized_text = writeText(message);
   decide(message, description);
   return description;

@@ -1,5 +1,6 @@
 #include "service/scene/problem_list.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,6 +26,14 @@ void ProblemList::requireInRange(std::string_view path, double value, const Rang
   const std::string_view hint = value == 0.0 ? "; 0 also stands for a missing field" : "";
   const std::string unit = range.unit.empty() ? std::string{} : fmt::format(" ({})", range.unit);
   add(path, fmt::format("value {} is out of range, allowed {} to {}{}{}", value, range.lower, range.upper, unit, hint));
+}
+
+bool ProblemList::concerns(std::string_view path) const {
+  return std::any_of(kept_.begin(), kept_.end(), [path](std::string_view problem) {
+    if (!problem.starts_with(path)) return false;
+    const char next = problem.size() > path.size() ? problem[path.size()] : ':';
+    return next == ':' || next == '.' || next == '[';
+  });
 }
 
 Status ProblemList::toStatus() const {

@@ -25,6 +25,9 @@ class ProblemList {
   /// Adds a problem unless the value is in the range. Values that are not finite are reported by reportNonFinite alone.
   void requireInRange(std::string_view path, double value, const Range& range);
 
+  /// Whether a problem lies at this field or within it.
+  bool concerns(std::string_view path) const;
+
   /// True once further problems are only counted: describing them is not worth the time.
   bool full() const { return count_ >= kMaxKept; }
   bool empty() const { return count_ == 0; }

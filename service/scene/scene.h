@@ -37,8 +37,8 @@ struct SceneDescription {
 };
 
 /// Reads and checks a scene. invalid_argument with every problem found, one per line: the field's path (or line:column of the
-/// text), the value and what is allowed. What only the solver can tell (a wound's speed against the speed of sound, the exact
-/// number of seeded particles) is left to sph::createWorld.
+/// text), the value and what is allowed. The solver's own rules (a wound's speed, room and
+/// neighbours) are among them. What the machine lacks, memory or a SIMD target, is left to sph::createWorld.
 Result<SceneDescription> parseScene(std::string_view text);
 
 /// Every effect that a scene can name, in the order of idl/scene.proto.

@@ -2,6 +2,7 @@
 // its defaults filled in.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "idl/scene.pb.h"
@@ -9,7 +10,7 @@
 
 namespace bleedsim::scene {
 
-/// All of the following.
+/// All of the following but validateWorld().
 void validate(const Scene& scene, ProblemList& problems);
 
 /// Box, periodic sides, capacity, resolution, fluid, compressibility, step limit.
@@ -23,6 +24,10 @@ void validateOutput(const Scene& scene, ProblemList& problems);
 void validateTissue(const Scene& scene, ProblemList& problems);
 void validateWounds(const Scene& scene, ProblemList& problems);
 void validateFluidBlocks(const Scene& scene, ProblemList& problems);
+/// What the solver would refuse: wounds that are too fast, overlap or reach out of the domain, outlines that cross themselves,
+/// blocks that the effects cannot work with, what the model does not know. After the others: parts that have problems already are
+/// left out. `speed_of_sound` (m/s) is that of a world that runs; without it the scene's own.
+void validateWorld(const Scene& scene, std::optional<double> speed_of_sound, ProblemList& problems);
 /// Names and the description.
 void validateText(const Scene& scene, ProblemList& problems);
 

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "service/scene/convert.h"
 #include "service/scene/validate.h"
+#include "service/sph/world_checks.h"
 
 namespace bleedsim::scene {
 namespace {
@@ -21,7 +23,6 @@ std::array<Side, 3> sidesOf(const Domain& domain) {
 
 /// `support` is the support radius, m; 0 if it is not known because the resolution is wrong.
 void validateSides(const Domain& domain, double support, ProblemList& problems) {
-  double cells = 1.0;
   for (const Side& side : sidesOf(domain)) {
     if (side.length > kMaxDomainSide) {
       problems.add("domain", fmt::format("the {} side measures {:.6g} m, allowed are at most {} m", side.axis, side.length,
@@ -36,13 +37,13 @@ void validateSides(const Domain& domain, double support, ProblemList& problems) 
               "lower resolution.spacing_m",
               side.length, kMinPeriodicSide * support));
     }
-    cells *= std::ceil(side.length / support);
   }
-  if (cells > kMaxCells) {
+  if (support <= 0.0) return;
+  if (const double cells = sph::gridCells(convertDomain(domain), support); cells > sph::kMostCells) {
     problems.add("domain",
-                 fmt::format("holds {} cells of one support radius ({:.6g} m), allowed are at most {}; shrink the domain or "
+                 fmt::format("holds {:.0f} cells of one support radius ({:.6g} m), allowed are at most {}; shrink the domain or "
                              "raise resolution.spacing_m",
-                             cells, support, kMaxCells));
+                             cells, support, sph::kMostCells));
   }
 }
 

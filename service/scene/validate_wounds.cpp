@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
 #include <map>
@@ -12,50 +11,14 @@ namespace {
 
 using Points = google::protobuf::RepeatedPtrField<Vec2>;
 
-void validatePoints(const std::string& path, const Points& points, int fewest, ProblemList& problems) {
-  if (points.size() < fewest || points.size() > kMaxPatchPoints) {
-    problems.add(path, fmt::format("{} points are given, allowed {} to {}", points.size(), fewest, kMaxPatchPoints));
+void validatePoints(const std::string& path, const Points& points, std::size_t fewest, ProblemList& problems) {
+  const auto size = static_cast<std::size_t>(points.size());
+  if (size < fewest || size > kMaxPatchPoints) {
+    problems.add(path, fmt::format("{} points are given, allowed {} to {}", size, fewest, kMaxPatchPoints));
   }
-  for (int i = 0; i < std::min(points.size(), kMaxPatchPoints); ++i) {
+  for (int i = 0; i < std::min(points.size(), static_cast<int>(kMaxPatchPoints)); ++i) {
     problems.requireInRange(fmt::format("{}[{}].u", path, i), points[i].u(), kPatchCoordinate);
     problems.requireInRange(fmt::format("{}[{}].v", path, i), points[i].v(), kPatchCoordinate);
-  }
-}
-
-/// Shoelace formula, m^2.
-double polygonArea(const Points& points) {
-  double twice = 0.0;
-  for (int i = 0; i < points.size(); ++i) {
-    const Vec2& a = points[i];
-    const Vec2& b = points[(i + 1) % points.size()];
-    twice += a.u() * b.v() - b.u() * a.v();
-  }
-  return std::abs(twice) / 2.0;
-}
-
-void validatePolygon(const std::string& path, const Polygon& polygon, ProblemList& problems) {
-  const std::size_t before = problems.count();
-  validatePoints(path + ".points_m", polygon.points_m(), kMinPolygonPoints, problems);
-  if (problems.count() != before) return;
-  const double area = polygonArea(polygon.points_m());
-  if (area < kMinPatchArea) {
-    problems.add(path, fmt::format("encloses {:.6g} m^2, at least {} m^2 are needed; give the outline in order, once around",
-                                   area, kMinPatchArea));
-  }
-}
-
-void validatePolyline(const std::string& path, const Polyline& line, ProblemList& problems) {
-  problems.requireInRange(path + ".width_m", line.width_m(), kPatchLength);
-  const std::size_t before = problems.count();
-  validatePoints(path + ".points_m", line.points_m(), kMinPolylinePoints, problems);
-  if (problems.count() != before) return;
-  double length = 0.0;
-  for (int i = 1; i < line.points_m_size(); ++i) {
-    length += std::hypot(line.points_m(i).u() - line.points_m(i - 1).u(), line.points_m(i).v() - line.points_m(i - 1).v());
-  }
-  if (length < kPatchLength.lower) {
-    problems.add(path + ".points_m",
-                 fmt::format("the line is {:.6g} m long, at least {} m are needed", length, kPatchLength.lower));
   }
 }
 
@@ -69,10 +32,11 @@ void validateShape(const std::string& path, const Wound& wound, ProblemList& pro
       problems.requireInRange(path + ".ellipse.semi_axis_v_m", wound.ellipse().semi_axis_v_m(), kPatchLength);
       return;
     case Wound::kPolygon:
-      validatePolygon(path + ".polygon", wound.polygon(), problems);
+      validatePoints(path + ".polygon.points_m", wound.polygon().points_m(), kMinPolygonPoints, problems);
       return;
     case Wound::kPolyline:
-      validatePolyline(path + ".polyline", wound.polyline(), problems);
+      problems.requireInRange(path + ".polyline.width_m", wound.polyline().width_m(), kPatchLength);
+      validatePoints(path + ".polyline.points_m", wound.polyline().points_m(), kMinPolylinePoints, problems);
       return;
     case Wound::SHAPE_NOT_SET:
       problems.add(path, "has no shape; give one of disc, ellipse, polygon, polyline");

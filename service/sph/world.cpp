@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::uint32_t kMostParticles = 2'000'000;
 constexpr int kMostThreads = 64;
-constexpr double kMostCells = 16'777'216.0;
 constexpr std::uint32_t kMostForceSources = 65'536;
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::count)> kStageNames{
@@ -29,8 +28,6 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)>
     "inlet_withdrawn", "neighbor_overflow",    "force_without_fluid", "force_expired", "viscosity_unsolved"};
 
 Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
-
-bool isFiniteNotNegative(double value) { return value >= 0.0 && std::isfinite(value); }
 
 Status checkEffects(const EffectSettings& effects) {
   if (effects.gravity && !effects.gravity->acceleration.allFinite()) return invalid("gravity must be three finite numbers");
@@ -68,22 +65,6 @@ Status checkEffects(const EffectSettings& effects) {
   return {};
 }
 
-Status checkBlock(const FluidBlock& block, const EffectSettings& effects) {
-  if (!block.lower.allFinite() || !block.upper.allFinite()) return invalid("a fluid block's corners must be finite");
-  if (!block.velocity.allFinite()) return invalid("a fluid block's velocity must be finite");
-  if (!isFiniteNotNegative(block.jitter)) return invalid("a fluid block's jitter must be finite and not negative");
-  if (block.viscosity && !isFiniteNotNegative(*block.viscosity)) {
-    return invalid("a fluid block's viscosity must be finite and not negative");
-  }
-  if (block.viscosity && *block.viscosity == 0.0 && viscosityChanges(effects)) {
-    return invalid("a fluid block's viscosity must be greater than 0 where platelets or a rheology act");
-  }
-  if (block.platelet && !(*block.platelet >= 0.0 && *block.platelet <= 1.0)) {
-    return invalid("a fluid block's platelets must be between 0 and 1");
-  }
-  return {};
-}
-
 /// What the arrays and the grid need; the scene layer gives the finer messages.
 Status checkDescription(const WorldDescription& d, const WorldOptions& options) {
   if (options.threads < 1 || options.threads > kMostThreads) {
@@ -113,7 +94,6 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
   const double h = d.supportRadius();
   const double c0 = options.speed_of_sound.value_or(speedOfSound(d));
   if (!(c0 > 0.0) || !std::isfinite(c0)) return invalid("the speed of sound must be greater than 0 m/s: set a design speed");
-  double cells = 1.0;
   for (Eigen::Index a = 0; a < 3; ++a) {
     const double length = d.domain.upper[a] - d.domain.lower[a];
     if (!(length > 0.0) || !std::isfinite(length)) return invalid("the domain's upper corner must lie above its lower corner");
@@ -122,9 +102,8 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
       return invalid("a periodic side must measure at least three of the largest support radii, " + std::to_string(shortest) +
                      " m");
     }
-    cells *= length / h + 2.0 * kThroatMargin;
   }
-  if (cells > kMostCells) {
+  if (const double cells = gridCells(d.domain, h); cells > kMostCells) {
     return invalid("the domain holds " + std::to_string(cells) +
                    " cells of one support radius, at most 16777216 are possible; use a "
                    "smaller domain or a larger spacing");

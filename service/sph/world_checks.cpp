@@ -2,6 +2,9 @@
 
 #include <string>
 
+#include "service/sph/effects/rheology.h"
+#include "service/sph/world_setup.h"
+
 namespace bleedsim::sph {
 namespace {
 
@@ -63,6 +66,32 @@ std::string beyondTheSpline(const EffectSettings& effects) {
 }
 
 }  // namespace
+
+Status checkBlockViscosity(const FluidBlock& block, const EffectSettings& effects) {
+  if (block.viscosity && !isFiniteNotNegative(*block.viscosity)) {
+    return invalid("a fluid block's viscosity must be finite and not negative");
+  }
+  if (block.viscosity && *block.viscosity == 0.0 && viscosityChanges(effects)) {
+    return invalid("a fluid block's viscosity must be greater than 0 where platelets or a rheology act");
+  }
+  return {};
+}
+
+Status checkBlock(const FluidBlock& block, const EffectSettings& effects) {
+  if (!block.lower.allFinite() || !block.upper.allFinite()) return invalid("a fluid block's corners must be finite");
+  if (!block.velocity.allFinite()) return invalid("a fluid block's velocity must be finite");
+  if (!isFiniteNotNegative(block.jitter)) return invalid("a fluid block's jitter must be finite and not negative");
+  if (Status status = checkBlockViscosity(block, effects); !status.ok()) return status;
+  if (block.platelet && !(*block.platelet >= 0.0 && *block.platelet <= 1.0)) {
+    return invalid("a fluid block's platelets must be between 0 and 1");
+  }
+  return {};
+}
+
+double gridCells(const Domain& domain, double support_radius) {
+  const Vec3 sides = (domain.upper - domain.lower) / support_radius;
+  return (sides.array() + 2.0 * kThroatMargin).prod();
+}
 
 Status checkEffectSet(const WorldDescription& description) {
   const EffectSettings& effects = description.effects;

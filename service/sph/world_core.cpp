@@ -91,8 +91,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
                                 description.capacity);
   }
   if (description.effects.applied_force) {
-    applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_,
-                           (description.domain.upper - description.domain.lower).norm());
+    applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_, description.domain);
   }
   if (description.effects.surface_tension && description.model == Model::sound) {
     surface_tension_.emplace(*description.effects.surface_tension, tables.sweeps, lattice.particle_mass, description.rest_density,

@@ -25,27 +25,20 @@ struct AppliedForceEvents {
   std::uint32_t without_fluid = 0;
 };
 
+/// invalid_argument unless every number is finite, the force at most kForce, the radius at most the domain's diagonal, and the
+/// sphere reaches into the domain.
+Status checkForce(const SetForce& source, const Domain& domain);
+
 template <class Real>
 class AppliedForce {
  public:
-  static constexpr double kMaxForce = 1e6;  ///< N
-
-  AppliedForce(std::uint32_t max_sources, double mass, double h, double max_radius)
-      : max_sources_{max_sources}, mass_{mass}, h_{h}, max_radius_{max_radius} {
+  AppliedForce(std::uint32_t max_sources, double mass, double h, const Domain& domain)
+      : max_sources_{max_sources}, mass_{mass}, h_{h}, domain_{domain} {
     sources_.reserve(max_sources);
   }
 
   Status set(const SetForce& source) {
-    if (!source.position.allFinite()) return {StatusCode::invalid_argument, "the force's position is not finite"};
-    if (!source.force.allFinite() || source.force.norm() > kMaxForce) {
-      return {StatusCode::invalid_argument, "the force must be finite and at most 1e6 N"};
-    }
-    if (!(source.radius > 0.0) || source.radius > max_radius_) {
-      return {StatusCode::invalid_argument, "the force's radius is " + std::to_string(source.radius) +
-                                                " m; use more than 0 and at most " + std::to_string(max_radius_) +
-                                                " m, the scene's diagonal"};
-    }
-    if (std::isnan(source.until)) return {StatusCode::invalid_argument, "the force's end is not a number"};
+    if (Status status = checkForce(source, domain_); !status.ok()) return status;
     for (SetForce& existing : sources_) {
       if (existing.key == source.key) {
         existing = source;
@@ -138,9 +131,9 @@ class AppliedForce {
   }
 
   std::uint32_t max_sources_;
-  double mass_;        // kg, of a particle
-  double h_;           // m
-  double max_radius_;  // m
+  double mass_;  // kg, of a particle
+  double h_;     // m
+  Domain domain_;
   std::vector<SetForce> sources_;
 };
 

@@ -51,21 +51,24 @@ Status checkDrive(const WoundDrive& drive) {
   return {};
 }
 
-Status checkSpeed(const ColumnSpeed& column, const WoundDrive& drive) {
+std::optional<SpeedExcess> speedExcess(const ColumnSpeed& column, const WoundDrive& drive) {
   // A scene whose own inlet pressure set the limit must not be refused for a rounding error.
-  if (column.speed <= column.limit * (1.0 + 1e-9)) return {};
+  if (column.speed <= column.limit * (1.0 + 1e-9)) return std::nullopt;
   const double ratio = column.limit / column.speed;
-  std::string lower;
-  if (const auto* flow = std::get_if<FlowDrive>(&drive)) {
-    lower = textOf("flow at most ", roundedDown(flow->flow * ratio * kMlPerCubicMetre), " mL/s");
-  } else {
-    const double pressure = std::get<PressureDriveSettings>(drive).inlet_pressure * ratio * ratio;
-    lower = textOf("inlet pressure at most ", roundedDown(pressure / kPascalPerMmHg), " mmHg");
-  }
+  const auto* flow = std::get_if<FlowDrive>(&drive);
+  const double most = flow != nullptr ? flow->flow * ratio * kMlPerCubicMetre
+                                      : std::get<PressureDriveSettings>(drive).inlet_pressure * ratio * ratio / kPascalPerMmHg;
+  return SpeedExcess{column, roundedDown(most), roundedUp(column.speed)};
+}
+
+Status checkSpeed(const ColumnSpeed& column, const WoundDrive& drive) {
+  const std::optional<SpeedExcess> excess = speedExcess(column, drive);
+  if (!excess) return {};
+  const bool flow = std::holds_alternative<FlowDrive>(drive);
   return {StatusCode::invalid_argument,
           // A reply holds 127 bytes: values first, then what to do.
-          textOf(column.speed, " m/s exceeds ", column.limit, " m/s: ", lower, ", or design_speed_m_per_s of at least ",
-                 roundedUp(column.speed))};
+          textOf(column.speed, " m/s exceeds ", column.limit, " m/s: ", flow ? "flow" : "inlet pressure", " at most ",
+                 excess->most, flow ? " mL/s" : " mmHg", ", or design_speed_m_per_s of at least ", excess->design_speed)};
 }
 
 }  // namespace bleedsim::sph

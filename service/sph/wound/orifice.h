@@ -1,6 +1,8 @@
 // The orifice law (physics.md sections 2 and 5.11), and what a wound may ask of the scene's speed of sound.
 #pragma once
 
+#include <optional>
+
 #include "service/sph/world_description.h"
 #include "service/status/status.h"
 
@@ -20,8 +22,17 @@ struct ColumnSpeed {
   double limit = 0.0;  ///< c0 / mach_factor, the speed that the scene is made for, m/s
 };
 
-/// A column faster than the scene's limit would compress blood by more than mach_factor allows: invalid_argument with the
-/// speed, the limit, the design_speed_m_per_s that the scene would need and the flow or pressure that would be accepted.
+/// What a drive that makes its column too fast may be instead, rounded so that it is accepted when typed in.
+struct SpeedExcess {
+  ColumnSpeed column;
+  double most = 0.0;          ///< flow in mL/s or inlet pressure in mmHg
+  double design_speed = 0.0;  ///< m/s, that the scene would need for the drive as it is
+};
+
+/// A column faster than the scene's limit would compress blood by more than mach_factor allows.
+std::optional<SpeedExcess> speedExcess(const ColumnSpeed& column, const WoundDrive& drive);
+
+/// ok, or invalid_argument with all that a SpeedExcess says.
 Status checkSpeed(const ColumnSpeed& column, const WoundDrive& drive);
 
 }  // namespace bleedsim::sph

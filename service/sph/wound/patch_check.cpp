@@ -2,6 +2,7 @@
 
 #include "service/sph/wound/patch_geometry.h"
 #include "service/sph/wound/text.h"
+#include "service/status/quantity_limits.h"
 
 namespace bleedsim::sph {
 namespace {
@@ -9,8 +10,8 @@ namespace {
 Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
 
 Status checkLength(const char* name, double value) {
-  if (value >= kMinPatchLength && value <= kMaxPatchLength) return {};  // false for NaN
-  return invalid(textOf("patch ", name, " is ", value, " m; allowed are ", kMinPatchLength, " to ", kMaxPatchLength, " m"));
+  if (value >= kPatchLength.lower && value <= kPatchLength.upper) return {};  // false for NaN
+  return invalid(textOf("patch ", name, " is ", value, " m; allowed are ", kPatchLength.lower, " to ", kPatchLength.upper, " m"));
 }
 
 Status checkPoints(const char* shape, const std::vector<Vec2>& points, std::size_t fewest, bool closed) {
@@ -18,9 +19,10 @@ Status checkPoints(const char* shape, const std::vector<Vec2>& points, std::size
     return invalid(textOf(shape, " patch has ", points.size(), " points; allowed are ", fewest, " to ", kMaxPatchPoints));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!(points[i].cwiseAbs().maxCoeff() <= kMaxPatchLength) || !points[i].allFinite()) {
+    if (!(points[i].cwiseAbs().maxCoeff() <= kPatchCoordinate.upper) || !points[i].allFinite()) {
       return invalid(textOf(shape, " patch point ", i, " is ", textOfPoint(points[i]),
-                            " m; coordinates must be finite and within ", -kMaxPatchLength, " to ", kMaxPatchLength, " m"));
+                            " m; coordinates must be finite and within ", kPatchCoordinate.lower, " to ", kPatchCoordinate.upper,
+                            " m"));
     }
   }
   const std::size_t pairs = closed ? points.size() : points.size() - 1;
@@ -84,7 +86,7 @@ struct Check {
     return checkLength("semi_axis_v", ellipse.semi_axis_v);
   }
   Status operator()(const PolygonPatch& polygon) const {
-    if (Status status = checkPoints("polygon", polygon.points, 3, true); !status) return status;
+    if (Status status = checkPoints("polygon", polygon.points, kMinPolygonPoints, true); !status) return status;
     if (Status status = checkSimple(polygon.points); !status) return status;
     const double area = patchArea(polygon);
     if (area >= kMinPatchArea) return {};
@@ -92,7 +94,7 @@ struct Check {
   }
   Status operator()(const PolylinePatch& line) const {
     if (Status status = checkLength("width", line.width); !status) return status;
-    return checkPoints("polyline", line.points, 2, false);
+    return checkPoints("polyline", line.points, kMinPolylinePoints, false);
   }
 };
 

@@ -8,14 +8,11 @@
 
 namespace bleedsim::sph {
 
-inline constexpr double kMinPatchLength = 1e-5;    ///< m, of a radius, semi-axis or width
-inline constexpr double kMaxPatchLength = 0.1;     ///< m, of these and of every coordinate
-inline constexpr double kMinPatchArea = 1e-10;     ///< m^2
 inline constexpr double kMinPointDistance = 1e-7;  ///< m, of consecutive points
-inline constexpr std::size_t kMaxPatchPoints = 256;
 
-/// invalid_argument naming the value and the allowed range: every number finite and within the limits above, a polygon of
-/// 3..256 points that encloses an area and does not touch itself, a polyline of 2..256 points, no two consecutive ones equal.
+/// invalid_argument naming the value and the allowed range: every number finite and within kPatchLength or kPatchCoordinate, a
+/// polygon of 3..256 points that encloses an area and does not touch itself, a polyline of 2..256 points, no two consecutive ones
+/// equal.
 Status checkPatch(const PatchShape& shape);
 
 /// m^2. Of a polyline length x width plus the two half discs at its ends; where it bends or crosses itself sharply the overlap

@@ -8,6 +8,7 @@
 #include "service/sph/wound/patch_geometry.h"
 #include "service/sph/wound/site_grid.h"
 #include "service/sph/wound/text.h"
+#include "service/status/quantity_limits.h"
 
 namespace bleedsim::sph {
 namespace {

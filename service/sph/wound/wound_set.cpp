@@ -17,12 +17,9 @@ Status invalid(std::string message) { return {StatusCode::invalid_argument, std:
 }  // namespace
 
 WoundSet::WoundSet(const WorldDescription& description, double speed_of_sound)
-    : domain_{description.domain},
+    : rules_{description, speed_of_sound},
       spacing_{description.spacing},
-      support_radius_{description.supportRadius()},
-      rest_density_{description.rest_density},
       particle_volume_{description.particleVolume()},
-      speed_limit_{speed_of_sound / description.compressibility.mach_factor},
       max_wounds_{std::min(description.max_wounds, kMaxInletSlots)},
       wound_of_slot_(max_wounds_ + 1, 0) {
   wounds_.reserve(max_wounds_);
@@ -38,7 +35,7 @@ Result<std::uint32_t> WoundSet::add(const WoundDescription& wound) {
   if (Status status = checkNameAndDrive(wound, 0); !status) return status;
   Result<Opening> opening = planOpening(wound);
   if (!opening) return opening.status();
-  Throat throat{freeSlot(), opening->frame, opening->patch, spacing_, support_radius_};
+  Throat throat = rules_.open(freeSlot(), *opening);
   if (Status status = checkClear(throat, 0); !status) return status;
   const Result<double> rate = planRate(wound, throat);
   if (!rate) return rate.status();
@@ -70,8 +67,7 @@ Status WoundSet::update(const UpdateWound& change, const WithdrawThroat& withdra
   if (next.position != now.position || next.normal != now.normal || next.tangent != now.tangent || change.shape) {
     Result<Opening> opening = planOpening(next);
     if (!opening) return opening.status();
-    reopened.emplace(wound.throat.slot(), opening->frame, opening->patch, spacing_, support_radius_,
-                     startAfter(wound.throat, *opening));
+    reopened.emplace(rules_.open(wound.throat.slot(), *opening, startAfter(wound.throat, *opening)));
     if (Status status = checkClear(*reopened, wound.id); !status) return status;
   }
   const Result<double> rate = planRate(next, reopened ? *reopened : wound.throat);
@@ -103,7 +99,7 @@ InletState WoundSet::kinematics(std::uint32_t tag) const {
   const InletTag parts = unpackInletTag(tag);
   assert(parts.slot >= 1 && parts.slot < wound_of_slot_.size() && wound_of_slot_[parts.slot] < wounds_.size());
   InletState state = wounds_[wound_of_slot_[parts.slot]].throat.kinematics(parts);
-  wrap(state.position);
+  wrapInto(rules_.domain(), state.position);
   return state;
 }
 
@@ -111,7 +107,7 @@ double WoundSet::openFraction(const Vec3& position) const {
   double open = 0.0;
   for (std::size_t i = 0; i < wounds_.size(); ++i) {
     const PatchFrame& frame = wounds_[i].throat.frame();
-    const Vec3 offset = nearestOffset(frame.origin, position);
+    const Vec3 offset = nearestOffset(rules_.domain(), frame.origin, position);
     if (offset.squaredNorm() < reach_squared_[i]) open += wounds_[i].throat.openFraction(frame.toLocal(offset));
   }
   return std::min(1.0, open);
@@ -159,18 +155,22 @@ Status WoundSet::checkNameAndDrive(const WoundDescription& wound, std::uint32_t 
   return checkDrive(wound.drive);
 }
 
-Result<WoundSet::Opening> WoundSet::planOpening(const WoundDescription& wound) const {
-  Result<PatchFrame> frame = makePatchFrame(wound.position, wound.normal, wound.tangent);
-  if (!frame) return frame.status();
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    if (wound.position[axis] >= domain_.lower[axis] && wound.position[axis] <= domain_.upper[axis]) continue;
-    return invalid(textOf("wound position ", textOfPoint(wound.position), " m is outside the domain from ",
-                          textOfPoint(domain_.lower), " to ", textOfPoint(domain_.upper), " m"));
+Result<Opening> WoundSet::planOpening(const WoundDescription& wound) const {
+  Result<Opening> opening = rules_.plan(wound);
+  if (!opening) return opening;
+  if (const auto outside = rules_.outside(*opening)) {
+    const char axis = "xyz"[outside->axis];
+    if (outside->lowest > outside->highest) {
+      return invalid(textOf("wound patch reaches out of the domain on both sides along ", axis, "; make it smaller"));
+    }
+    return invalid(textOf("wound position.", axis, " is ", wound.position[static_cast<Eigen::Index>(outside->axis)], ": use ",
+                          outside->lowest, " to ", outside->highest, " m, or the patch reaches out of the domain"));
   }
-  Result<PatchSites> patch = makePatchSites(wound.shape, spacing_);
-  if (!patch) return patch.status();
-  Opening opening{*frame, std::move(*patch)};
-  if (Status status = checkInside(opening); !status) return status;
+  if (const auto meets_itself = rules_.meetsItself(*opening)) {
+    return invalid(textOf("wound patch reaches ", meets_itself->extent,
+                          " m from its position; on this scene's periodic side it may reach ", meets_itself->most,
+                          " m, or it would meet itself"));
+  }
   return opening;
 }
 
@@ -182,7 +182,7 @@ Throat::Start WoundSet::startAfter(const Throat& before, const Opening& opening)
   SiteGrid grid{extent, spacing_};
   for (const Vec2& site : opening.patch.sites) grid.insert(site);
   before.forEachJustEmitted([&](const Vec3& position) {
-    const Vec3 local = opening.frame.toLocal(nearestOffset(opening.frame.origin, position));
+    const Vec3 local = opening.frame.toLocal(nearestOffset(rules_.domain(), opening.frame.origin, position));
     grid.forEachNear({local.x(), local.y()}, [&](std::uint32_t site, double squared) {
       const double below = separation * separation - squared;
       if (below > 0.0) start.ceilings[site] = std::min(start.ceilings[site], local.z() - std::sqrt(below));
@@ -191,59 +191,19 @@ Throat::Start WoundSet::startAfter(const Throat& before, const Opening& opening)
   return start;
 }
 
-Status WoundSet::checkInside(const Opening& opening) const {
-  double extent = 0.0;
-  for (const Vec2& site : opening.patch.sites) {
-    extent = std::max(extent, site.norm());
-    const Vec3 exit = opening.frame.toWorld(site, 0.0);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      if (domain_.periodic[static_cast<std::size_t>(axis)]) continue;
-      if (exit[axis] >= domain_.lower[axis] && exit[axis] <= domain_.upper[axis]) continue;
-      return invalid(textOf("wound patch reaches out of the domain at ", textOfPoint(exit), " m; the domain is from ",
-                            textOfPoint(domain_.lower), " to ", textOfPoint(domain_.upper), " m"));
-    }
-  }
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    if (!domain_.periodic[static_cast<std::size_t>(axis)]) continue;
-    const double room = domain_.upper[axis] - domain_.lower[axis] - spacing_;
-    if (2.0 * extent > room) {
-      return invalid(textOf("wound patch reaches ", extent, " m from its position; on this scene's periodic side it may reach ",
-                            0.5 * room, " m, or it would meet itself"));
-    }
-  }
-  return {};
-}
-
 Status WoundSet::checkClear(const Throat& candidate, std::uint32_t except_id) const {
-  const double separation = kSiteSeparation * spacing_;
   for (const Wound& wound : wounds_) {
-    const Throat& other = wound.throat;
-    if (wound.id == except_id) continue;
-    const double apart = nearestOffset(other.frame().origin, candidate.frame().origin).norm();
-    if (apart > other.reach() + candidate.reach() + spacing_) continue;
-    // Points along the new columns, half a spacing apart, against the other column as a solid of its sites.
-    for (const Vec2& site : candidate.sites()) {
-      for (double height = 0.5 * spacing_; height >= -candidate.depth(); height -= 0.5 * spacing_) {
-        const Vec3 local = other.frame().toLocal(nearestOffset(other.frame().origin, candidate.frame().toWorld(site, height)));
-        if (local.z() > spacing_ || local.z() < -other.depth() - spacing_) continue;
-        bool clear = true;
-        other.grid().forEachNear({local.x(), local.y()},
-                                 [&](std::uint32_t, double squared) { clear = clear && squared >= separation * separation; });
-        if (!clear) {
-          return invalid(textOf("wound at ", textOfPoint(candidate.frame().origin), " m overlaps wound ", wound.id, " at ",
-                                textOfPoint(other.frame().origin), " m; keep their patches one spacing (", spacing_,
-                                " m) apart, or change wound ", wound.id));
-        }
-      }
-    }
+    if (wound.id == except_id || !rules_.overlap(candidate, wound.throat)) continue;
+    return invalid(textOf("wound at ", textOfPoint(candidate.frame().origin), " m overlaps wound ", wound.id, " at ",
+                          textOfPoint(wound.throat.frame().origin), " m; keep their patches one spacing (", spacing_,
+                          " m) apart, or change wound ", wound.id));
   }
   return {};
 }
 
 Result<double> WoundSet::planRate(const WoundDescription& wound, const Throat& throat) const {
-  const double rate = driveFlow(wound.drive, throat.area(), rest_density_) / particle_volume_;
-  if (Status status = checkSpeed({.speed = throat.speedFor(rate), .limit = speed_limit_}, wound.drive); !status) return status;
-  return rate;
+  if (Status status = checkSpeed(rules_.columnSpeed(wound.drive, throat), wound.drive); !status) return status;
+  return rules_.rateOf(wound.drive, throat);
 }
 
 std::uint32_t WoundSet::freeSlot() const {
@@ -252,24 +212,6 @@ std::uint32_t WoundSet::freeSlot() const {
   std::uint32_t slot = 1;
   while (taken[slot]) ++slot;
   return slot;
-}
-
-void WoundSet::wrap(Vec3& position) const {
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    if (!domain_.periodic[static_cast<std::size_t>(axis)]) continue;
-    const double side = domain_.upper[axis] - domain_.lower[axis];
-    position[axis] -= side * std::floor((position[axis] - domain_.lower[axis]) / side);
-  }
-}
-
-Vec3 WoundSet::nearestOffset(const Vec3& from, const Vec3& to) const {
-  Vec3 offset = to - from;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    if (!domain_.periodic[static_cast<std::size_t>(axis)]) continue;
-    const double side = domain_.upper[axis] - domain_.lower[axis];
-    offset[axis] -= side * std::round(offset[axis] / side);
-  }
-  return offset;
 }
 
 void WoundSet::book(std::size_t index, const InletStep& step, double dt) {

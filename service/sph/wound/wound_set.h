@@ -11,7 +11,9 @@
 #include "service/sph/command.h"
 #include "service/sph/world.h"
 #include "service/sph/world_description.h"
+#include "service/sph/wound/periodic_offset.h"
 #include "service/sph/wound/throat.h"
+#include "service/sph/wound/wound_rules.h"
 #include "service/status/status.h"
 
 namespace bleedsim::sph {
@@ -47,7 +49,7 @@ class WoundSet {
     InletStep total;
     for (std::size_t i = 0; i < wounds_.size(); ++i) {
       const InletStep step = wounds_[i].throat.advance(dt, [&](InletSpawn spawn) {
-        wrap(spawn.state.position);
+        wrapInto(rules_.domain(), spawn.state.position);
         return static_cast<bool>(place(std::as_const(spawn)));
       });
       book(i, step, dt);
@@ -87,32 +89,22 @@ class WoundSet {
     Throat throat;
     std::uint64_t emitted = 0;
   };
-  struct Opening {
-    PatchFrame frame;
-    PatchSites patch;
-  };
 
   std::size_t indexOf(std::uint32_t id) const;
   Status unknown(std::uint32_t id) const;
   Status checkNameAndDrive(const WoundDescription& wound, std::uint32_t except_id) const;
   Result<Opening> planOpening(const WoundDescription& wound) const;
   Throat::Start startAfter(const Throat& before, const Opening& opening) const;
-  Status checkInside(const Opening& opening) const;
   Status checkClear(const Throat& candidate, std::uint32_t except_id) const;
   Result<double> planRate(const WoundDescription& wound, const Throat& throat) const;
   std::uint32_t freeSlot() const;
-  void wrap(Vec3& position) const;
-  Vec3 nearestOffset(const Vec3& from, const Vec3& to) const;
   void book(std::size_t index, const InletStep& step, double dt);
   void withdrawThroat(std::size_t index, const WithdrawThroat& withdraw);
   void refreshReach();
 
-  Domain domain_;
+  WoundRules rules_;
   double spacing_ = 0.0;
-  double support_radius_ = 0.0;
-  double rest_density_ = 0.0;
   double particle_volume_ = 0.0;
-  double speed_limit_ = 0.0;
   std::uint32_t max_wounds_ = 0;
   std::uint32_t next_id_ = 1;
   std::vector<Wound> wounds_;                 // by rising id

@@ -1,4 +1,5 @@
 // bleedctl as a process of its own, against a fake service here.
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <fmt/core.h>
@@ -89,6 +90,28 @@ TEST_F(BleedctlTest, ARefusalHasCodeOneAndItsReason) {
   const test::Finished finished = bleedctl({"wound", "remove", "99"});
   EXPECT_EQ(finished.code, 1);
   EXPECT_THAT(finished.output, HasSubstr("wound 99 is unknown"));
+}
+
+TEST_F(BleedctlTest, ARefusedSceneBringsTheCheckAndNothingElseDoes) {
+  std::atomic<std::uint32_t> code = bleed_v1_REPLY_SCENE;
+  const auto service = serve("one", [&code](const bleed_v1_Request&, bleed_v1_Reply& reply) {
+    reply.code = code;
+    std::string{"the scene has 2 problems:"}.copy(reply.reason, sizeof reply.reason - 1);
+    return true;
+  });
+  const std::string scene = fmt::format("{}/bleedctl_{}.textproto", testing::TempDir(), getpid());
+  std::ofstream{scene} << "name: \"x\"\n";
+  const std::string check = fmt::format("'bleedd --scene {} --check' lists all that is wrong", scene);
+  const test::Finished refused = bleedctl({"load", scene});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.output, testing::AllOf(HasSubstr("2 problems"), HasSubstr(check)));
+  for (const std::uint32_t other : {bleed_v1_REPLY_STATE, bleed_v1_REPLY_FAILED, bleed_v1_REPLY_ACCEPTED}) {
+    code = other;
+    EXPECT_THAT(bleedctl({"load", scene}).output, testing::Not(HasSubstr("--check"))) << other;
+  }
+  code = bleed_v1_REPLY_SCENE;
+  EXPECT_THAT(bleedctl({"reset"}).output, testing::Not(HasSubstr("--check"))) << "a reset has no file to check";
+  std::filesystem::remove(scene);
 }
 
 TEST_F(BleedctlTest, ASilentSessionHasCodeThree) {

@@ -59,6 +59,9 @@ TEST_F(ServiceTest, RefusedRequestsLeaveTheStateAsItWas) {
   std::string unknown_field = "name: 'x' nonsense { }";
   std::string not_finite = smallScene();
   not_finite.replace(not_finite.find("flow_ml_per_s: 1.5"), 18, "flow_ml_per_s: nan");
+  std::string broken_wounds = smallScene() +
+                              "wounds { disc { radius_m: 0.003 } flow_ml_per_s: 500 }\n"
+                              "wounds { position_m { x: 0.029 } disc { radius_m: 0.003 } flow_ml_per_s: 1 }\n";
   const auto load = [](std::string& text) {
     return Probe::body(bleed_v1_REQUEST_LOAD_SCENE, [&text](auto& body) { body._u.load_scene.text = text.data(); });
   };
@@ -75,12 +78,17 @@ TEST_F(ServiceTest, RefusedRequestsLeaveTheStateAsItWas) {
   std::vector<bleed_v1_RequestBody> bad{
       load(unknown_field),
       load(not_finite),
+      load(broken_wounds),
       wound(kNaN),
       wound(std::numeric_limits<double>::infinity()),
       wound(1e9),
       wound(5.0),
       force(kNaN),
       force(1e9),
+      Probe::body(bleed_v1_REQUEST_FORCE,
+                  [](auto& body) {
+                    body._u.force = {{5.0, 0.0, 0.0}, 0.01, {0.0, 0.0, 1.0}, 1.0};
+                  }),
       Probe::body(bleed_v1_REQUEST_WOUND_REMOVE, [](auto& body) { body._u.wound_remove.wound_id = 777; }),
       Probe::body(bleed_v1_REQUEST_WOUND_UPDATE, [](auto& body) { body._u.wound_update.wound_id = 1; }),
       Probe::body(bleed_v1_REQUEST_PACE,
@@ -98,7 +106,10 @@ TEST_F(ServiceTest, RefusedRequestsLeaveTheStateAsItWas) {
     probe.matchInstruments();
     std::uint64_t seq = 0;
     for (const auto& spoil : bad_instruments) probe.sendInstrument(++seq, spoil);
-    probe.status([&](const StatusHead& status) { return status.counter("instrument_samples") == bad_instruments.size(); });
+    probe.sendInstrument(++seq, [](auto& tool) { tool.position.x = 5.0; });
+    probe.status([&](const StatusHead& status) {
+      return status.counter("instrument_samples") == seq && status.counter("instruments_refused") == 1;
+    });
     const StatusHead status = probe.status();
     EXPECT_EQ(status.counter("instruments_malformed"), bad_instruments.size());
   });

@@ -96,6 +96,24 @@ TEST_F(ServiceTest, ABrokenSceneIsAUsageError) {
   EXPECT_THAT(daemon.output(), HasSubstr("flow_ml_per_s"));
 }
 
+TEST_F(ServiceTest, ACheckListsWhatOnlyTheSolverCanTell) {
+  std::ofstream{sceneFile()}
+      << "domain { lower_m { x: -0.03 y: -0.03 z: -0.01 } upper_m { x: 0.03 y: 0.03 z: 0.03 } capacity: 2000 }\n"
+         "resolution { spacing_m: 0.002 } compressibility { design_speed_m_per_s: 0.3 }\n"
+         "effects { pressure {} }\n"
+         "wounds { disc { radius_m: 0.004 } flow_ml_per_s: 100 }\n"
+         "wounds { position_m { x: 0.005 } disc { radius_m: 0.004 } flow_ml_per_s: 1 }\n"
+         "wounds { position_m { x: 0.028 } disc { radius_m: 0.004 } flow_ml_per_s: 1 }\n"
+         "fluid_blocks { lower_m { z: 0.02 } upper_m { x: 0.01 y: 0.01 z: 0.04 } }\n";
+  test::ChildProcess daemon{daemonCommand("check", {"--check"})};
+  EXPECT_EQ(daemon.wait(), 2);
+  EXPECT_THAT(
+      daemon.output(),
+      testing::AllOf(HasSubstr("4 problems"), HasSubstr("wounds[0].flow_ml_per_s: value 100 is out of range, allowed 0 to"),
+                     HasSubstr("wounds[1].position_m: value (0.005, 0, 0) overlaps wounds[0]"),
+                     HasSubstr("wounds[2].position_m.x: value 0.028"), HasSubstr("fluid_blocks[0].upper_m.z: value 0.04")));
+}
+
 TEST_F(ServiceTest, ChecksASceneWithoutRunningIt) {
   test::ChildProcess daemon{daemonCommand("check", {"--check"})};
   EXPECT_EQ(daemon.wait(), 0);

@@ -86,6 +86,25 @@ TEST(CommandLine, NoFloatingOptionTakesAnythingButFiniteNumbers) {
   }
 }
 
+TEST(CommandLine, TellsOfRangesBeforeItSends) {
+  const std::vector<const char*> add{"wound", "add", "--at", "0,0,0", "--radius-mm", "3", "--flow-ml-per-s", "1"};
+  const auto with = [&add](std::size_t at, const char* value) {
+    std::vector<const char*> arguments = add;
+    arguments[at] = value;
+    return run(arguments);
+  };
+  EXPECT_EQ(with(3, "0,10.1,0"), 2);
+  EXPECT_EQ(with(5, "0.009"), 2);
+  EXPECT_EQ(with(5, "101"), 2);
+  EXPECT_EQ(with(7, "-0.1"), 2);
+  EXPECT_EQ(with(7, "1001"), 2);
+  EXPECT_EQ(run({"wound", "set", "1", "--pressure-mmhg", "1001"}), 2);
+  EXPECT_EQ(run({"wound", "move", "1", "--at", "-11,0,0"}), 2);
+  EXPECT_EQ(run({"force", "--at", "0,0,0", "--radius-mm", "10001", "--newtons", "0,0,1"}), 2);
+  EXPECT_EQ(run({"force", "--at", "0,0,0", "--radius-mm", "1", "--newtons", "8e5,8e5,0"}), 2);
+  EXPECT_EQ(run({"force", "--at", "0,0,0", "--radius-mm", "1", "--newtons", "0,0,1", "--duration", "0"}), 2);
+}
+
 TEST(CommandLine, HelpAndVersionSucceedForEveryCommand) {
   EXPECT_EQ(run({"--help"}), 0);
   EXPECT_EQ(run({"--version"}), 0);

@@ -59,5 +59,28 @@ TEST_F(InstrumentMotionTest, AToolWhoseWriterIsGoneMovesNothingAnyMore) {
   EXPECT_LT(gainOfSteps().norm(), 1e-3);
 }
 
+TEST_F(InstrumentMotionTest, AToolThatLeavesTheDomainIsCountedAndPushesNoLonger) {
+  push();
+  InstrumentInput away = sample(2);
+  away.sample.position = {9.0, 0.0, 0.0};
+  away.sample.force = {0.0, 0.0, kForce};
+  ASSERT_TRUE(channels_.commands.tryPush(away));
+  tick();
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_refused), 1U);
+  EXPECT_LT(gainOfSteps().norm(), 1e-3);
+}
+
+TEST_F(InstrumentMotionTest, ASampleOutOfTheDomainChangesNothing) {
+  const LoadedScene twin = freeBlood();
+  InstrumentInput away = sample(1);
+  away.sample.position = {0.0, 9.0, 0.0};
+  ASSERT_TRUE(channels_.commands.tryPush(away));
+  ticks(kSteps);
+  while (twin.world->stepCount() < simulation_->world().stepCount()) ASSERT_TRUE(twin.world->step(1.0).ok());
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_refused), 1U);
+  EXPECT_EQ(simulation_->world().stateHash(), twin.world->stateHash());
+  EXPECT_TRUE(journal().empty());
+}
+
 }  // namespace
 }  // namespace bleedsim::daemon

@@ -101,6 +101,21 @@ TEST_F(SimulationTest, CountsSamplesThatTheWorldRefuses) {
   EXPECT_TRUE(journal().empty()) << "what never acted does not end";
 }
 
+TEST_F(SimulationTest, AToolWhoseNewestSampleIsRefusedPushesNoLonger) {
+  start();
+  channels_.commands.tryPush(sample(1));
+  tick();
+  ASSERT_EQ(log_->forces.size(), 1U);
+  for (std::uint64_t number = 2000; number < 2003; ++number) {
+    channels_.commands.tryPush(sample(number));
+    tick();
+    EXPECT_TRUE(log_->forces.empty());
+  }
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_refused), 3U);
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_ended), 1U);
+  EXPECT_EQ(journal().size(), 2U) << "its push and its end; what was refused leaves no trace";
+}
+
 TEST_F(SimulationTest, AResetForgetsTheTools) {
   start();
   channels_.commands.tryPush(sample(1));

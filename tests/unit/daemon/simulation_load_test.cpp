@@ -83,6 +83,40 @@ TEST_F(SimulationTest, ABrokenSceneLeavesTheOldWorldAsItWas) {
   EXPECT_TRUE(journal().empty());
 }
 
+TEST_F(SimulationTest, ASceneThatOnlyTheSolverCouldRefuseLeavesTheWorldAsItWas) {
+  const auto scene = [](const std::string& wounds) {
+    return "domain { lower_m { x: -0.03 y: -0.03 z: -0.01 } upper_m { x: 0.03 y: 0.03 z: 0.03 } capacity: 2000 }\n"
+           "resolution { spacing_m: 0.002 } compressibility { design_speed_m_per_s: 0.3 } effects { pressure {} }\n"
+           "fluid_blocks { lower_m {} upper_m { x: 0.01 y: 0.01 z: 0.01 } }\n" +
+           wounds;
+  };
+  const SceneFactory factory = worldFactory({});
+  Result<LoadedScene> first = factory({scene(""), {}});
+  ASSERT_TRUE(first.ok()) << first.status().message();
+  const SimulationOptions options{{dds::PaceMode::maximum, 1.0}, {}, {}};
+  simulation_ = std::make_unique<Simulation>(options, std::move(*first), factory, channels_, now_);
+  ticks(20);
+  ask(dds::PauseSession{});
+  const std::uint64_t hash = simulation_->world().stateHash();
+  push(
+      dds::LoadScene{scene("wounds { disc { radius_m: 0.004 } flow_ml_per_s: 100 }\n"
+                           "wounds { position_m { x: 0.005 } disc { radius_m: 0.004 } flow_ml_per_s: 1 }\n"
+                           "wounds { position_m { x: 0.028 } disc { radius_m: 0.004 } flow_ml_per_s: 1 }\n"
+                           "fluid_blocks { lower_m { z: 0.02 } upper_m { x: 0.01 y: 0.01 z: 0.04 } }\n")});
+  tick();
+  loadUntilDone();
+  const dds::Reply refused = reply();
+  EXPECT_EQ(refused.code, dds::ReplyCode::scene);
+  EXPECT_EQ(refused.applied_step, simulation_->world().stepCount() + 1);
+  EXPECT_THAT(refused.reason, testing::StartsWith("the scene has 4 problems:"));
+  for (const char* path :
+       {"wounds[0].flow_ml_per_s", "wounds[1].position_m", "wounds[2].position_m.x", "fluid_blocks[1].upper_m.z"}) {
+    EXPECT_THAT(refused.reason, HasSubstr(path));
+  }
+  EXPECT_EQ(simulation_->world().stateHash(), hash);
+  EXPECT_EQ(simulation_->state(), dds::SessionState::paused);
+}
+
 TEST_F(SimulationTest, RefusesWhatTheComingWorldWouldNotKnow) {
   start();
   push(dds::ResetSession{});

@@ -86,6 +86,14 @@ INSTANTIATE_TEST_SUITE_P(
                    "force.newtons.x is nan"},
         BadRequest{"force_huge", [] { return force([](auto& f) { f.newtons.z = -1e7; }); }, StatusCode::invalid_argument,
                    "force.newtons.z is -1e+07"},
+        BadRequest{"force_long", [] { return force([](auto& f) {
+                                        f.newtons = {8e5, 8e5, 0.0};
+                                      }); }, StatusCode::invalid_argument,
+                   "force.newtons is 1.13137e+06: use 0 to 1e+06 N, its length"},
+        BadRequest{"force_far", [] { return force([](auto& f) { f.position.y = -10.5; }); }, StatusCode::invalid_argument,
+                   "force.position.y is -10.5: use -10 to 10 m"},
+        BadRequest{"force_wide", [] { return force([](auto& f) { f.radius_m = 10.5; }); }, StatusCode::invalid_argument,
+                   "force.radius_m is 10.5: use 1e-05 to 10 m"},
         BadRequest{"force_position", [] { return force([](auto& f) { f.position.y = kInfinity; }); },
                    StatusCode::invalid_argument, "force.position.y is inf"},
         BadRequest{"force_radius", [] { return force([](auto& f) { f.radius_m = 0.0; }); }, StatusCode::invalid_argument,

@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
     All, BadWoundTest,
     testing::Values(BadWound{"nan_position", [](auto& w) { w.position.y = kNaN; }, "wound.position.y"},
                     BadWound{"infinite_position", [](auto& w) { w.position.x = -kInfinity; }, "wound.position.x"},
-                    BadWound{"huge_position", [](auto& w) { w.position.z = 1e7; }, "wound.position.z"},
+                    BadWound{"huge_position", [](auto& w) { w.position.z = 10.5; }, "wound.position.z is 10.5: use -10 to 10 m"},
                     BadWound{"nan_normal", [](auto& w) { w.normal.x = kNaN; }, "wound.normal.x"},
                     BadWound{"zero_normal",
                              [](auto& w) {
@@ -53,20 +53,33 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWound{"zero_radius", [](auto& w) { w.radius_m = 0.0; }, "wound.radius_m"},
                     BadWound{"negative_radius", [](auto& w) { w.radius_m = -0.003; }, "wound.radius_m"},
                     BadWound{"nan_radius", [](auto& w) { w.radius_m = kNaN; }, "wound.radius_m"},
-                    BadWound{"huge_radius", [](auto& w) { w.radius_m = 1e4; }, "wound.radius_m"},
+                    BadWound{"huge_radius", [](auto& w) { w.radius_m = 0.11; }, "wound.radius_m is 0.11: use 1e-05 to 0.1 m"},
                     BadWound{"ellipse_without_second_axis", [](auto& w) { w.shape = bleed_v1_SHAPE_ELLIPSE; }, "wound.radius2_m"},
                     BadWound{"polygon_without_outline", [](auto& w) { w.shape = bleed_v1_SHAPE_POLYGON; }, "wound.outline"},
                     BadWound{"polyline_without_width", [](auto& w) { w.shape = bleed_v1_SHAPE_POLYLINE; }, "wound.width_m"},
                     BadWound{"unknown_drive", [](auto& w) { w.drive = 2; }, "wound.drive is 2"},
                     BadWound{"negative_flow", [](auto& w) { w.flow_ml_per_s = -1.0; }, "wound.flow_ml_per_s"},
                     BadWound{"nan_flow", [](auto& w) { w.flow_ml_per_s = kNaN; }, "wound.flow_ml_per_s"},
-                    BadWound{"huge_flow", [](auto& w) { w.flow_ml_per_s = 1e9; }, "wound.flow_ml_per_s"},
+                    BadWound{"huge_flow", [](auto& w) { w.flow_ml_per_s = 1001.0; },
+                             "wound.flow_ml_per_s is 1001: use 0 to 1000 mL/s"},
                     BadWound{"nan_pressure",
                              [](auto& w) {
                                w.drive = bleed_v1_DRIVE_PRESSURE;
                                w.pressure_mmhg = kNaN;
                              },
                              "wound.pressure_mmhg"},
+                    BadWound{"huge_pressure",
+                             [](auto& w) {
+                               w.drive = bleed_v1_DRIVE_PRESSURE;
+                               w.pressure_mmhg = 1001.0;
+                             },
+                             "wound.pressure_mmhg is 1001: use 0 to 1000 mmHg"},
+                    BadWound{"small_discharge",
+                             [](auto& w) {
+                               w.drive = bleed_v1_DRIVE_PRESSURE;
+                               w.discharge_coefficient = 0.05;
+                             },
+                             "wound.discharge_coefficient is 0.05: use 0.1 to 1 or 0 for the default"},
                     BadWound{"discharge_above_one",
                              [](auto& w) {
                                w.drive = bleed_v1_DRIVE_PRESSURE;

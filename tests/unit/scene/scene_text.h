@@ -7,7 +7,7 @@
 
 namespace bleedsim::scene {
 
-/// Valid, with one of nearly everything; the rules' tests replace one piece of it.
+/// Valid, and such that a world can be made of it, with one of nearly everything; the rules' tests replace one piece of it.
 inline constexpr std::string_view kFullScene = R"(name: "full"
 description: "all of it"
 frame_id: "table"
@@ -31,10 +31,10 @@ tissue { name: "floor" plane { point_m { z: 0.001 } normal { z: 2 } } slip: 0.25
 tissue { name: "tray" box { lower_m { x: -0.04 y: -0.04 z: 0 } upper_m { x: 0.04 y: 0.04 z: 0.04 } open_top: true } }
 tissue { name: "organ" bowl { rim_center_m { z: 0.002 } sphere_radius_m: 0.03 depth_m: 0.01 } }
 wounds { name: "a" position_m { x: 0.01 } normal { z: 3 } disc { radius_m: 0.003 } flow_ml_per_s: 2 }
-wounds { name: "b" tangent { x: 1 } ellipse { semi_axis_u_m: 0.002 semi_axis_v_m: 0.001 }
+wounds { name: "b" position_m { y: 0.02 } tangent { x: 1 } ellipse { semi_axis_u_m: 0.002 semi_axis_v_m: 0.001 }
          pressure { inlet_pressure_mmhg: 1 discharge_coefficient: 0.7 } }
-wounds { name: "c" polygon { points_m { u: -0.003 } points_m { u: 0.003 } points_m { v: 0.004 } } flow_ml_per_s: 1 }
-wounds { name: "d" polyline { points_m { u: -0.005 } points_m { u: 0.005 } width_m: 0.0015 } flow_ml_per_s: 0.5 }
+wounds { name: "c" position_m { y: -0.02 } polygon { points_m { u: -0.003 } points_m { u: 0.003 } points_m { v: 0.004 } } flow_ml_per_s: 1 }
+wounds { name: "d" position_m { x: -0.025 } polyline { points_m { u: -0.005 } points_m { u: 0.005 } width_m: 0.0015 } flow_ml_per_s: 0.5 }
 fluid_blocks { lower_m { x: 0.02 y: 0.02 z: 0.01 } upper_m { x: 0.03 y: 0.03 z: 0.02 }
                velocity_m_per_s { x: 0.5 } jitter: 0.1 viscosity_pa_s: 0.006 }
 fluid_blocks { lower_m { x: 0.03 y: 0.02 z: 0.01 } upper_m { x: 0.04 y: 0.03 z: 0.02 } }

@@ -172,6 +172,40 @@ TEST(AppliedForces, BadSourcesAreRefused) {
   EXPECT_EQ(world->stateHash(), untouched->stateHash());
 }
 
+TEST(AppliedForces, ASphereThatMissesTheDomainIsRefused) {
+  WorldDescription description = pushable();
+  description.domain.lower = {-0.02, -0.02, -0.02};
+  description.domain.upper = {0.02, 0.02, 0.02};
+  const auto world = test::makeWorld(description);
+  const auto untouched = test::makeWorld(description);
+  const Vec3 force{0.001, 0.0, 0.0};
+  EXPECT_TRUE(world->apply(source(1, force, 0.0041, {0.024, 0.0, 0.0})).ok()) << "it just reaches in";
+  ASSERT_TRUE(world->apply(RemoveForce{1}).ok());
+  for (const Vec3& position : {Vec3{0.024, 0.0, 0.0}, Vec3{0.0, -1e3, 0.0}, Vec3{0.023, 0.023, -0.021}}) {
+    const auto answer = world->apply(source(1, force, 0.004, position));
+    ASSERT_FALSE(answer.ok()) << position.transpose();
+    EXPECT_EQ(answer.status().code(), StatusCode::invalid_argument);
+    EXPECT_LE(answer.status().message().size(), 127u) << "a reply would cut it";
+  }
+  const auto answer = world->apply(source(1, force, 0.004, {0.024, 0.0, 0.0}));
+  EXPECT_EQ(answer.status().message(),
+            "position (0.024, 0, 0) m, radius 0.004 m: outside the domain, x from -0.02 to 0.02 m; move it in");
+  ASSERT_TRUE(world->step(1.0).ok());
+  ASSERT_TRUE(untouched->step(1.0).ok());
+  EXPECT_EQ(world->stateHash(), untouched->stateHash());
+  EXPECT_EQ(test::counterOf(*world, Counter::force_without_fluid), 0u);
+}
+
+TEST(AppliedForces, APeriodicSideIsNeverMissed) {
+  WorldDescription description = test::periodicBox({12, 12, 12});
+  description.effects = {};
+  description.effects.applied_force.emplace();
+  const auto world = test::makeWorld(description);
+  ASSERT_TRUE(world->apply(source(1, {0.0, 0.0, 0.001}, 0.003, {0.5, 0.006, 0.006})).ok());
+  ASSERT_TRUE(world->step(1.0).ok());
+  EXPECT_LT((pushOfFirstStep(*world) - Vec3{0.0, 0.0, 0.001}).norm(), 1e-9);
+}
+
 TEST(AppliedForces, WithoutTheEffectTheyAreUnsupported) {
   const auto world = test::makeWorld(test::freeBlock({3, 3, 3}));
   for (const Command& command : {Command{source(1, {0.001, 0.0, 0.0})}, Command{RemoveForce{1}}}) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "service/sph/wound/patch_geometry.h"
+#include "service/status/quantity_limits.h"
 
 namespace bleedsim::sph {
 namespace {
@@ -63,8 +64,8 @@ TEST(CheckPatch, RefusesBadShapesByName) {
 }
 
 TEST(CheckPatch, AcceptsTheLimits) {
-  EXPECT_TRUE(checkPatch(DiscPatch{kMinPatchLength}).ok());
-  EXPECT_TRUE(checkPatch(DiscPatch{kMaxPatchLength}).ok());
+  EXPECT_TRUE(checkPatch(DiscPatch{kPatchLength.lower}).ok());
+  EXPECT_TRUE(checkPatch(DiscPatch{kPatchLength.upper}).ok());
   EXPECT_TRUE(checkPatch(PolygonPatch{ring(3)}).ok());
   EXPECT_TRUE(checkPatch(PolygonPatch{ring(256)}).ok());
   EXPECT_TRUE(checkPatch(PolylinePatch{ring(256), 0.001}).ok());

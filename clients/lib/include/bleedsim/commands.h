@@ -15,17 +15,17 @@ enum class WoundShape { disc, ellipse, polygon, polyline };
 /// A bleeding patch on the tissue.
 struct WoundSpec {
   std::string name{};          ///< at most 64 bytes
-  Vec3 position{};             ///< m
+  Vec3 position{};             ///< m, coordinates of -10 to 10, in the domain
   Vec3 normal{0.0, 0.0, 1.0};  ///< outward, of any length
   Vec3 tangent{};              ///< u axis of the outline; 0 0 0: chosen by the service
   WoundShape shape = WoundShape::disc;
-  double radius_m = 0.0;                  ///< disc; ellipse along the tangent
+  double radius_m = 0.0;                  ///< disc; ellipse along the tangent; lengths are 1e-5 to 0.1 m
   double radius2_m = 0.0;                 ///< ellipse across the tangent
   double width_m = 0.0;                   ///< polyline
-  std::vector<double> outline{};          ///< polygon, polyline: (u, v) pairs in m, at most 256 pairs
-  double flow_ml_per_s = 0.0;             ///< used unless `pressure_mmhg` is set
-  std::optional<double> pressure_mmhg{};  ///< drives the flow through the orifice law
-  double discharge_coefficient = 0.0;     ///< 0: the service's default
+  std::vector<double> outline{};          ///< polygon, polyline: (u, v) pairs in m, -0.1 to 0.1, at most 256 pairs
+  double flow_ml_per_s = 0.0;             ///< 0 to 1000; used unless `pressure_mmhg` is set
+  std::optional<double> pressure_mmhg{};  ///< 0 to 1000, drives the flow through the orifice law
+  double discharge_coefficient = 0.0;     ///< 0.1 to 1; 0: the service's default
 };
 
 /// What of a wound changes; unset parts stay.
@@ -39,9 +39,9 @@ struct WoundChange {
 };
 
 struct ForceSpec {
-  Vec3 position{};          ///< m
-  double radius_m = 0.0;    ///< reach
-  Vec3 newtons{};           ///< total force on the fluid in reach
+  Vec3 position{};          ///< m, coordinates of -10 to 10
+  double radius_m = 0.0;    ///< reach, 1e-5 to 10 m; it must touch the domain
+  Vec3 newtons{};           ///< total force on the fluid in reach, at most 1e6 N
   double duration_s = 0.1;  ///< simulated seconds
 };
 
@@ -75,7 +75,8 @@ const char* toString(ReplyCode code);
 struct Reply {
   ReplyCode code = ReplyCode::no_answer;
   std::string reason{};
-  std::uint64_t applied_step = 0;  ///< the first step that used the request
+  /// The first step that used the request; of a refusal the coming one. 0 for a reset or a loaded scene: it begins with `epoch`.
+  std::uint64_t applied_step = 0;
   double sim_time_s = 0.0;
   std::uint32_t epoch = 0;
   std::uint32_t object_id = 0;  ///< the wound added or touched; 0: none

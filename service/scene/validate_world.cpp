@@ -1,0 +1,167 @@
+// The solver's own rules, told with the fields of the scene that break them.
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "service/scene/convert.h"
+#include "service/scene/validate.h"
+#include "service/sph/literal_model.h"
+#include "service/sph/world_checks.h"
+#include "service/sph/wound/wound_rules.h"
+
+namespace bleedsim::scene {
+namespace {
+
+constexpr const char* kAxes = "xyz";
+
+/// The members of a list that can be looked at: without problems of their own, and within the count that the list may have.
+template <class Member>
+struct Sound {
+  google::protobuf::RepeatedPtrField<Member> members;
+  std::vector<int> indices;  ///< in the scene
+};
+
+template <class Member>
+Sound<Member> soundOf(const google::protobuf::RepeatedPtrField<Member>& all, const char* path, int most,
+                      const ProblemList& problems) {
+  Sound<Member> sound;
+  for (int i = 0; i < std::min(all.size(), most); ++i) {
+    if (problems.concerns(fmt::format("{}[{}]", path, i))) continue;
+    *sound.members.Add() = all[i];
+    sound.indices.push_back(i);
+  }
+  return sound;
+}
+
+std::string pointText(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
+
+std::string shapeName(const Wound& wound) {
+  switch (wound.shape_case()) {
+    case Wound::kEllipse:
+      return "ellipse";
+    case Wound::kPolygon:
+      return "polygon";
+    case Wound::kPolyline:
+      return "polyline";
+    case Wound::kDisc:
+    case Wound::SHAPE_NOT_SET:
+      break;
+  }
+  return "disc";
+}
+
+double coordinate(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x() : axis == 1 ? v.y() : v.z(); }
+
+/// Adds one problem of a wound; visits sph::WoundProblem::what.
+struct TellWound {
+  const Scene& scene;
+  int index;
+  const std::vector<int>& indices;
+  ProblemList& problems;
+
+  std::string path(std::string_view field) const { return fmt::format("wounds[{}].{}", index, field); }
+  const Wound& wound() const { return scene.wounds(index); }
+
+  void operator()(const Status& refusal) const { problems.add(path(shapeName(wound())), refusal.message()); }
+
+  void operator()(const sph::PatchOutside& outside) const {
+    const char axis = kAxes[outside.axis];
+    const double value = coordinate(wound().position_m(), outside.axis);
+    if (outside.lowest > outside.highest) {
+      problems.add(
+          path(shapeName(wound())),
+          fmt::format("the patch is wider along {} than the domain, allowed {} to {} (m); make it smaller", axis,
+                      coordinate(scene.domain().lower_m(), outside.axis), coordinate(scene.domain().upper_m(), outside.axis)));
+      return;
+    }
+    problems.add(
+        path(fmt::format("position_m.{}", axis)),
+        fmt::format("value {} lets the patch reach out of the domain, allowed {:.6g} to {:.6g} (m) for a patch of this size",
+                    value, outside.lowest, outside.highest));
+  }
+
+  void operator()(const sph::PatchMeetsItself& meets) const {
+    problems.add(path(shapeName(wound())),
+                 fmt::format("reaches {:.6g} m from its position, allowed 0 to {:.6g} (m), or it would meet itself across the "
+                             "periodic side",
+                             meets.extent, meets.most));
+  }
+
+  void operator()(const sph::WoundOverlap& overlap) const {
+    const int other = indices[overlap.other];
+    problems.add(path("position_m"),
+                 fmt::format("value {} overlaps wounds[{}] at {}, allowed are places where the patches are at least one spacing, "
+                             "{} m, apart; move or shrink one",
+                             pointText(wound().position_m()), other, pointText(scene.wounds(other).position_m()),
+                             scene.resolution().spacing_m()));
+  }
+
+  void operator()(const sph::SpeedExcess& excess) const {
+    const bool flow = wound().has_flow_ml_per_s();
+    const double value = flow ? wound().flow_ml_per_s() : wound().pressure().inlet_pressure_mmhg();
+    problems.add(
+        path(flow ? "flow_ml_per_s" : "pressure.inlet_pressure_mmhg"),
+        fmt::format("value {} is out of range, allowed 0 to {:.6g} ({}): {:.3g} m/s through this patch, the scene is made "
+                    "for {:.3g} m/s; lower it, widen the patch or raise compressibility.design_speed_m_per_s to {:.6g}",
+                    value, excess.most, flow ? "mL/s" : "mmHg", excess.column.speed, excess.column.limit, excess.design_speed));
+  }
+};
+
+bool anyConcerned(const ProblemList& problems, std::initializer_list<std::string_view> paths) {
+  return std::any_of(paths.begin(), paths.end(), [&](std::string_view path) { return problems.concerns(path); });
+}
+
+/// Whether the speed of sound follows from what has no problems.
+bool speedKnown(const Scene& scene, const std::vector<int>& sound_wounds, const ProblemList& problems) {
+  if (!scene.has_compressibility()) return false;
+  if (anyConcerned(problems, {"compressibility", "fluid", "effects", "model", "literal"})) return false;
+  for (int i = 0; i < scene.wounds_size(); ++i) {
+    const bool sound = std::find(sound_wounds.begin(), sound_wounds.end(), i) != sound_wounds.end();
+    if (!sound && scene.wounds(i).has_pressure()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void validateWorld(const Scene& scene, std::optional<double> speed_of_sound, ProblemList& problems) {
+  if (problems.full() || !scene.has_domain() || !scene.has_resolution()) return;
+  if (anyConcerned(problems, {"domain.lower_m", "domain.upper_m", "resolution.spacing_m", "resolution.support_ratio"})) {
+    return;
+  }
+  const Sound<Wound> wounds = soundOf(scene.wounds(), "wounds", kMaxSceneWounds, problems);
+  const Sound<FluidBlock> blocks = soundOf(scene.fluid_blocks(), "fluid_blocks", kMaxFluidBlocks, problems);
+  const bool effects_sound = !anyConcerned(problems, {"effects", "model", "literal", "resolution.kernel"});
+  Scene usable = scene;
+  *usable.mutable_wounds() = wounds.members;
+  *usable.mutable_fluid_blocks() = blocks.members;
+  if (problems.concerns("tissue")) usable.clear_tissue();
+  if (!effects_sound) {
+    usable.clear_effects();
+    usable.clear_model();
+  }
+  const sph::WorldDescription world = convertWorld(usable);
+
+  double speed = std::numeric_limits<double>::infinity();  // no wound is too fast
+  if (speed_of_sound) {
+    speed = *speed_of_sound;
+  } else if (speedKnown(scene, wounds.indices, problems)) {
+    speed = sph::speedOfSound(world);
+  }
+  for (const sph::WoundProblem& problem : sph::findWoundProblems(world, speed)) {
+    std::visit(TellWound{scene, wounds.indices[problem.wound], wounds.indices, problems}, problem.what);
+  }
+  if (!effects_sound) return;
+  for (std::size_t i = 0; i < world.fluid_blocks.size(); ++i) {
+    if (sph::checkBlockViscosity(world.fluid_blocks[i], world.effects).ok()) continue;
+    problems.add(fmt::format("fluid_blocks[{}].viscosity_pa_s", blocks.indices[i]),
+                 fmt::format("value {} is out of range, allowed more than 0 to {} (Pa s) where platelets or a rheology act",
+                             blocks.members[static_cast<int>(i)].viscosity_pa_s(), kViscosity.upper));
+  }
+  if (Status status = sph::checkLiteral(world); !status.ok()) problems.add("model", status.message());
+  if (Status status = sph::checkPlanar(world); !status.ok()) problems.add("domain.planar", status.message());
+}
+
+}  // namespace bleedsim::scene
