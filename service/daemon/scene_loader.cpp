@@ -7,7 +7,7 @@ namespace bleedsim::daemon {
 namespace {
 
 Result<LoadedScene> buildSwitched(const SceneJob& job, sph::WorldOptions options) {
-  Result<scene::SceneDescription> changed = scene::changeEffect(*job.known, job.effect->change);
+  Result<scene::SceneDescription> changed = scene::changeEffect(*job.known, job.effect->change, job.effect->speed_of_sound);
   if (!changed) return changed.status();
   options.speed_of_sound = job.effect->speed_of_sound;
   Result<std::unique_ptr<sph::World>> world = sph::createWorld(changed->world, options);

@@ -54,7 +54,7 @@ void leaveAuto(const std::string& name, Effects& effects) {
 
 }  // namespace
 
-Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change) {
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change, double speed_of_sound) {
   const google::protobuf::FieldDescriptor* field = findEffect(change.name);
   if (field == nullptr) return unknownEffect(change.name);
   Scene message;
@@ -79,7 +79,7 @@ Result<SceneDescription> changeEffect(const SceneDescription& scene, const Effec
     reflection.ClearField(&effects, field);
     dropDependents(message);
   }
-  Result<SceneDescription> changed = finishScene(message, problems);
+  Result<SceneDescription> changed = finishScene(message, problems, speed_of_sound);
   if (!changed) return problems.firstToStatus();
   changed->former_settings = std::move(former);
   return changed;

@@ -15,10 +15,10 @@ struct EffectChange {
   std::string settings;
 };
 
-/// The scene as it reads with the change. not_found: no such effect, with the list; invalid_argument: the first problem of the
-/// settings or of the combination, short enough for a reply.
-/// An effect that goes off takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves
-/// effects.auto: who switches by hand has decided.
-Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change);
+/// The scene as it reads with the change, in a session that runs at `speed_of_sound`, m/s. not_found: no such effect, with the
+/// list; invalid_argument: the first problem of the settings or of the combination, short enough for a reply. An effect that goes
+/// off takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves effects.auto: who
+/// switches by hand has decided.
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change, double speed_of_sound);
 
 }  // namespace bleedsim::scene

@@ -1,6 +1,8 @@
 // From a message that was read to a description.
 #pragma once
 
+#include <optional>
+
 #include "idl/scene.pb.h"
 #include "service/scene/problem_list.h"
 #include "service/scene/scene.h"
@@ -8,7 +10,7 @@
 namespace bleedsim::scene {
 
 /// Fills defaults, validates, converts, decides what effects.auto leaves to us and writes the normalised text. `problems` may
-/// hold those of the text; all are told.
-Result<SceneDescription> finishScene(Scene& message, ProblemList& problems);
+/// hold those of the text; all are told. `speed_of_sound` as of applyAuto().
+Result<SceneDescription> finishScene(Scene& message, ProblemList& problems, std::optional<double> speed_of_sound = {});
 
 }  // namespace bleedsim::scene
