@@ -16,6 +16,9 @@ namespace {
 // The implicit solve stays on until the explicit limit has left the others this far behind: it must not flicker.
 constexpr double kImplicitBand = 1.2;
 
+// How often particles on one spot are looked for. They come of bad seeding and of corners, so a few steps more do no harm.
+constexpr std::uint64_t kCoincidenceSteps = 32;
+
 // Below this a second thread costs more than it brings.
 constexpr std::uint32_t kParticlesForThreads = 2000;
 
@@ -42,7 +45,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
       domain_{inSupportRadii<Real>(description.domain.lower, h_), inSupportRadii<Real>(description.domain.upper, h_),
               description.domain.periodic},
       caps_{static_cast<Real>(2.0 * speed_of_sound_),
-            static_cast<Real>(6.25 * speed_of_sound_ * speed_of_sound_ / description.spacing)},
+            static_cast<Real>(kAccelerationBound * speed_of_sound_ * speed_of_sound_ / description.spacing)},
       limits_{timeStepLimits(description, speed_of_sound_)},
       executor_{makeExecutor(options.threads)},
       particles_{description.capacity, particleFields<Real>(description), 0},
@@ -54,6 +57,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
             kThroatMargin / description.support_ratio,
             options.threads,
             radiusBounds(description).largest},
+      coincidence_{1.0 / description.support_ratio, description.planar, options.threads},
       passes_{tables.passes,
               pairLayout(description),
               pairConstants<Real>(description, lattice, speed_of_sound_),
@@ -292,6 +296,9 @@ void WorldCore<Real>::finishStep(double dt) {
     passes_.setReach(core_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
   }
   counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
+  if (steps_ % kCoincidenceSteps == 0) {
+    counter(Counter::coincident_parted) += coincidence_.part(grid_, particles_, count_, shares_, *executor_);
+  }
   counter(Counter::speed_clamped) += total.speed_clamped;
   counter(Counter::acceleration_clamped) += total.acceleration_clamped;
   max_speed_ = std::sqrt(static_cast<double>(total.max_speed2));

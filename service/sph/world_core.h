@@ -19,6 +19,7 @@
 #include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/neighbors/cell_grid.h"
+#include "service/sph/neighbors/coincidence.h"
 #include "service/sph/particles.h"
 #include "service/sph/passes/pair_passes.h"
 #include "service/sph/rest_lattice.h"
@@ -97,6 +98,7 @@ class WorldCore final : public World {
   int shares_ = 1;
   Particles<Real> particles_, sorted_;
   CellGrid<Real> grid_;
+  Coincidence<Real> coincidence_;
   PairPasses<Real> passes_;
   WallEffects<Real> walls_;
   WoundSet wounds_;

@@ -5,6 +5,7 @@
 
 #include "service/sph/rest_lattice.h"
 #include "service/sph/smoothing_kernel.h"
+#include "service/sph/world_setup.h"
 #include "tests/support/nearest_offset.h"
 
 namespace bleedsim::test {
@@ -16,7 +17,7 @@ using sph::Vec3;
 Vec3 repulsionOf(const sph::WorldDescription& d, double c0, const Vec3& offset, const Vec3& velocity) {
   const sph::RepulsionSettings& settings = *d.effects.repulsion;
   const double contact = settings.contact_distance * d.spacing;
-  const double distance = std::max(offset.norm(), contact / 2.0);
+  const double distance = std::max(offset.norm(), contact / sph::contactOverlap(settings));
   const double pe = contact / distance;
   if (pe < 1.0) return Vec3::Zero();
   const Vec3 direction = offset.normalized();

@@ -52,7 +52,8 @@ inline constexpr std::array<EffectRow, 9> kEffects{{
       "each radius"},
      effectSlot<&EffectSettings::core_radius>()},
     {{"repulsion", "(35)(36)", "the paper",
-      "added to the other forces, D scaled by m c0^2 dx, pe at most 2, pairs in contact damped, its own limit of the time step"},
+      "added to the other forces, D scaled by m c0^2 dx, a pair's push bounded, pairs in contact damped, its own limit of the "
+      "time step"},
      effectSlot<&EffectSettings::repulsion>()},
     {{"surface_tension", "(21)-(23)", "Brackbill 1992; Morris 2000; Breinlinger 2013",
       "curvature of kept normals instead of the Laplacian of the colour field; contact angle; no net force on a free body"},
