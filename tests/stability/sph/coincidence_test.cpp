@@ -45,8 +45,8 @@ double smallestDistance(const sph::World& world) {
 }
 
 // They start 0.002 dx apart and grow: after 15 dx/c0 the least distance of all cases is 0.095 dx, in blood without repulsion,
-// where the lattice leaves no place; 25 times the start are asked for. Momentum over sum m |v|: reached 8e-8 and, where ten burst
-// apart into the clamps, 5.3e-7.
+// where the lattice leaves no place; 25 times the start are asked for. Momentum over sum m |v|: reached 6e-8 and, where ten burst
+// apart into the clamps, 9.2e-7.
 class CoincidenceTest : public testing::TestWithParam<Case> {};
 
 TEST_P(CoincidenceTest, partsAndKeepsMomentum) {
