@@ -2,16 +2,17 @@
 //
 // Equation (34) of the paper:
 //   h_i <- lambda (m/rho_i)^(1/d)
-// terms: h_i m; m kg; rho kg/m^3; d dimension, 3 or, in a planar world, 2 with the density of a layer dx thick; lambda = h/dx, the
-// scene's support ratio, so that blood at rest keeps 0.997 h (m is 0.99 rho0 dx^3 by poly6).
+// terms: h_i m; m kg; rho kg/m^3; d dimension, 3 or, in a planar world, 2 with the density of a layer dx thick; lambda = h/dx,
+// the scene's support ratio, so that blood at rest keeps 0.997 h (m is 0.99 rho0 dx^3 by poly6).
 //
 // Deviation from the paper: bounds, without which a lone particle's radius grows by lambda/1.161 in every step, for ever.
 //   above   kLiteralLargestSpacings dx: the 27 cells around one then hold 1424 particles of blood at rest; the density pass takes
 //           1832, beyond which every particle is on its slow path
 //   below   kLiteralSmallestRadius h, which is eight times the density at rest: particles on one spot would shrink to nothing
 //
-// Known of it: radii differ inside a pair, so action is not reaction; and h_i follows every ripple of the density. Both add to the
-// energy that the printed kernels pump: a closed box's grows 43 times instead of 25 (tests/stability/sph/literal_energy_test.cpp).
+// Known of it: radii differ inside a pair, so action is not reaction; and h_i follows every ripple of the density. Both add to
+// the energy that the printed kernels pump: a closed box's grows 43 times instead of 25
+// (tests/stability/sph/literal_energy_test.cpp).
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 # pass_report.cmake: a line for every table; every bound fails the report by itself, none where the bounds are off; what this machine
 # cannot measure is left out.
-#   cmake -DREPORT=... -DSIZE=... -DNM=... -DOBJECTS="a.o,b.o" -P
+# measure_compile: notes the cost, keeps it where ccache had the object, and ends as the compiler did.
+#   cmake -DREPORT=... -DSIZE=... -DNM=... -DLAUNCHER=... -DOBJECTS="a.o,b.o" -P
 function(report expected_to_fail wanted)
   execute_process(COMMAND "${CMAKE_COMMAND}" "-DOBJECTS=${OBJECTS}" ${ARGN} -P "${REPORT}" RESULT_VARIABLE failed
                   OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -37,3 +38,24 @@ report(FALSE "181.5 s of CPU and 953 MiB to compile .compiled." "-DSIZE=${SIZE}"
 report(TRUE "181.5 seconds of CPU time, at most 180;976563 KiB to compile, at most 976562" "-DSIZE=${SIZE}" "-DNM=${NM}" -DBOUNDED=ON)
 file(WRITE "${folder}/passes_slow.cpp.o.cost" "- - cached\n")
 report(FALSE "- s of CPU and - MiB to compile .cached." "-DSIZE=${SIZE}" "-DNM=${NM}" -DBOUNDED=ON)
+
+if(NOT EXISTS "${LAUNCHER}")
+  return()
+endif()
+set(object "${folder}/passes_touched.cpp.o")
+file(REMOVE "${object}.cost")
+function(compile expected_code wanted)
+  execute_process(COMMAND "${LAUNCHER}" /passes/ ${ARGN} -o "${object}" RESULT_VARIABLE code)
+  set(cost "")
+  if(EXISTS "${object}.cost")
+    file(READ "${object}.cost" cost)
+  endif()
+  if(NOT code EQUAL expected_code OR NOT cost MATCHES "${wanted}")
+    message(FATAL_ERROR "${ARGN} ended with ${code} instead of ${expected_code} and noted '${cost}' instead of ${wanted}")
+  endif()
+endfunction()
+compile(0 "^- - cached\n$" sh -c "echo direct_cache_hit > \"$CCACHE_STATSLOG\"")
+compile(3 "^- - cached\n$" sh -c "exit 3")
+compile(0 "^[0-9.]+ [0-9]+ compiled\n$" sh -c "echo cache_miss > \"$CCACHE_STATSLOG\"")
+compile(0 "^[0-9.]+ [0-9]+ cached\n$" sh -c "echo preprocessed_cache_hit > \"$CCACHE_STATSLOG\"")
+compile(0 "^[0-9.]+ [0-9]+ compiled\n$" sh -c "true")
