@@ -15,6 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(SceneEffects, ConvertToSiUnits) {
   const Result<SceneDescription> scene = parseScene(kEffectScene);
