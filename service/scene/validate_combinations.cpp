@@ -8,6 +8,7 @@
 #include "service/scene/effect_names.h"
 #include "service/scene/nearest_name.h"
 #include "service/scene/validate.h"
+#include "service/sph/effects/literal_core_radius.h"
 
 namespace bleedsim::scene {
 namespace {
@@ -46,11 +47,13 @@ void validatePlatelets(const Effects& effects, ProblemList& problems) {
 
 void validatePeriodicReach(const Scene& scene, ProblemList& problems) {
   const Domain& domain = scene.domain();
-  const double reach =
-      scene.resolution().spacing_m() * scene.resolution().support_ratio() * scene.effects().core_radius().largest();
+  const double ratio = scene.resolution().support_ratio();
+  const bool literal = scene.model() == Scene::LITERAL;
+  const double largest = literal ? sph::literalRadiusBounds(ratio).largest : scene.effects().core_radius().largest();
+  const double reach = scene.resolution().spacing_m() * ratio * largest;
   const auto require = [&](char axis, bool periodic, double side) {
     if (!periodic || side >= kMinPeriodicSide * reach) return;
-    problems.add("effects.core_radius.largest",
+    problems.add(literal ? "effects.core_radius" : "effects.core_radius.largest",
                  fmt::format("three of its reaches are {:.4g} m, the periodic side {} is {:.4g} m; widen the domain",
                              kMinPeriodicSide * reach, axis, side));
   };

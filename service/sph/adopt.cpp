@@ -65,9 +65,10 @@ Status WorldCore<Real>::adopt(World& world) {
   takeOrFill(particles_.platelet, theirs.platelet, count_,
              static_cast<Real>(description_.effects.platelets.value_or(PlateletSettings{}).fresh));
   takeOrFill(particles_.radius, theirs.radius, count_, Real(1));
-  if (const auto& bounds = description_.effects.core_radius) {
-    const auto smallest = static_cast<Real>(bounds->smallest);
-    const auto largest = static_cast<Real>(bounds->largest);
+  if (description_.effects.core_radius) {
+    const RadiusBounds bounds = radiusBounds(description_);
+    const auto smallest = static_cast<Real>(bounds.smallest);
+    const auto largest = static_cast<Real>(bounds.largest);
     for (std::uint32_t i = 0; i < count_; ++i) particles_.radius[i] = std::clamp(particles_.radius[i], smallest, largest);
     passes_.setReach(std::min(from->passes_.reach(), std::max(Real(1), largest)));
   }

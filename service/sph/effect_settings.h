@@ -70,7 +70,7 @@ struct PlateletSettings {
   double clot_speedup = 1.0;        ///< s
 };
 
-/// (34): h_i follows lambda (m/rho_i)^(1/3), bounded and relaxed.
+/// (34): h_i follows lambda (m/rho_i)^(1/3), bounded and relaxed. The literal model has bounds of its own.
 struct CoreRadiusSettings {
   double smallest = 0.9;    ///< of lambda dx
   double largest = 1.3;     ///< of lambda dx
@@ -102,7 +102,6 @@ struct LiteralSettings {
   std::optional<double> repulsion;                  ///< D of (36), N m^2; default 1.5 m c0^2 dx
   int power_1 = 6, power_2 = 4;                     ///< n1 > n2 of (36)
   double contact_radius = 0.45;                     ///< r_i of (35), in spacings
-  std::optional<double> radius_factor;              ///< lambda of (34); default: h = support_ratio dx at rest
 };
 
 struct AppliedForceSettings {

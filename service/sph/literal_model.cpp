@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "service/sph/effects/literal_core_radius.h"
 #include "service/sph/own_math.h"
 #include "service/sph/seeding.h"
 
@@ -62,6 +63,7 @@ LiteralSet literalSet(const WorldDescription& description) {
   set.viscosity = effects.viscosity.has_value();
   set.platelets = effects.platelets.has_value();
   set.repulsion = effects.repulsion.has_value();
+  set.core_radius = effects.core_radius.has_value();
   return set;
 }
 
@@ -94,12 +96,14 @@ double literalStiffness(const WorldDescription& description, double speed_of_sou
 double literalTimeStep(const WorldDescription& description, double speed_of_sound) {
   const EffectSettings& effects = description.effects;
   const LiteralSettings& literal = description.literal;
-  const double h = description.supportRadius();
+  const double smallest = effects.core_radius ? literalRadiusBounds(description.support_ratio).smallest : 1.0;
+  const double least = smallest * description.supportRadius();
   double dt = std::numeric_limits<double>::infinity();
   if (effects.surface_tension && literal.tension > 0.0) {
     dt = 0.25 * std::sqrt(description.rest_density * description.particleVolume() / (2.0 * std::numbers::pi * literal.tension));
   }
-  if (effects.platelets && literal.platelet_diffusivity > 0.0) dt = std::min(dt, 0.045 * h * h / literal.platelet_diffusivity);
+  if (effects.platelets && literal.platelet_diffusivity > 0.0)
+    dt = std::min(dt, 0.045 * least * least / literal.platelet_diffusivity);
   if (effects.repulsion) dt = std::min(dt, 0.1 * description.spacing / speed_of_sound);
   return dt;
 }
@@ -134,9 +138,6 @@ LiteralJob<Real> literalJob(const WorldDescription& description, const RestLatti
 Status checkLiteral(const WorldDescription& d) {
   if (d.model != Model::literal) return {};
   const EffectSettings& effects = d.effects;
-  if (effects.core_radius) {
-    return unsupported("the literal model has one support radius for all particles; remove core_radius or use the sound model");
-  }
   if (effects.adhesion) return unsupported("the paper has no adhesion; remove it or use the sound model");
   if (effects.pressure && effects.pressure->background_pressure != 0.0) {
     return unsupported("the paper has no background pressure; leave it at 0 Pa or use the sound model");

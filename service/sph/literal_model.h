@@ -9,6 +9,7 @@
 //   platelets             (26) (27), P by PlateletSettings::fresh or a block's own            effects/literal_platelets-inl.h
 //                         mu of every particle is then (26)                                   effects/literal_forces.h
 //   repulsion             (35) (36), Table I's else-branch   effects/literal_repulsion-inl.h
+//   core_radius           (34), lambda = h/dx; within bounds         effects/literal_core_radius.h, literal_core_radius-inl.h
 //   gravity, applied_force                                   as in the sound model
 //
 // Kernels: poly6 for density, spiky for pressure and tension, the Laplacian of (33) for viscosity and platelets.
@@ -18,7 +19,7 @@
 //   tissue          the sound model's (tissue/), its share of density made with poly6; the paper has no boundary
 //   bounds          on speed and acceleration as in the sound model, each use counted; no other clamp
 //   (28)            sums accelerations: a_i of (36) is f/m
-//   h               one for all particles; (34) is refused
+//   h               one for all particles without core_radius
 // One layer (WorldDescription::planar) is a domain of both models; see checkPlanar.
 #pragma once
 
@@ -47,8 +48,8 @@ double largestLiteralViscosity(const WorldDescription& description);
 /// k, m^2/s^2.
 double literalStiffness(const WorldDescription& description, double speed_of_sound);
 
-/// The literal terms' own limit of the time step, s: 0.25 sqrt(rho0 dx^3/(2 pi eps)), 0.045 h^2/k of platelets, and 0.1 dx/c0
-/// with repulsion.
+/// The literal terms' own limit of the time step, s: 0.25 sqrt(rho0 dx^3/(2 pi eps)), 0.045 h^2/k of platelets for the smallest
+/// h, and 0.1 dx/c0 with repulsion.
 double literalTimeStep(const WorldDescription& description, double speed_of_sound);
 
 /// The constants of the force pass.

@@ -133,7 +133,8 @@ Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptio
                                                                           .spacing = d.spacing,
                                                                           .particle_mass = lattice.particle_mass,
                                                                           .rest_density = d.rest_density,
-                                                                          .radii = radiusBounds(d)});
+                                                                          .radii = radiusBounds(d),
+                                                                          .calibrates_radii = d.model == Model::sound});
   if (!tissue) return tissue.status();
   auto world = std::make_unique<WorldCore<Real>>(d, options, target, tables, lattice, std::move(*tissue));
   if (Status status = world->populate(); !status.ok()) return status;

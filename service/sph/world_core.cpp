@@ -77,11 +77,12 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
   }
   if (description.planar) gravity_[2] = Real(0);
   const EffectSettings& effects = description.effects;
-  if (effects.core_radius) core_radius_.emplace(*effects.core_radius, description.rest_density, options.threads);
   if (description.model == Model::literal) {
     opening_ = 1.0;
     literal_.emplace(description, lattice, speed_of_sound_, viscosityVaries(description), target);
+    if (effects.core_radius) literal_radius_.emplace(description, lattice, options.threads);
   } else {
+    if (effects.core_radius) core_radius_.emplace(*effects.core_radius, description.rest_density, options.threads);
     if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, tables.sweeps.shear_rate);
     if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
     if (effects.platelets) clotting_.emplace(*effects.platelets, description.spacing, description.rest_density, walls_.field());
@@ -293,6 +294,9 @@ void WorldCore<Real>::finishStep(double dt) {
   }
   if (core_radius_ && dt > 0.0) {
     passes_.setReach(core_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
+  }
+  if (literal_radius_ && dt > 0.0) {
+    passes_.setReach(literal_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
   }
   counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
   if (steps_ % kCoincidenceSteps == 0) {

@@ -10,6 +10,7 @@
 #include "service/sph/effects/applied_force.h"
 #include "service/sph/effects/core_radius.h"
 #include "service/sph/effects/implicit_viscosity.h"
+#include "service/sph/effects/literal_core_radius.h"
 #include "service/sph/effects/literal_forces.h"
 #include "service/sph/effects/platelets.h"
 #include "service/sph/effects/rheology.h"
@@ -104,6 +105,7 @@ class WorldCore final : public World {
   WoundSet wounds_;
   std::optional<AppliedForce<Real>> applied_force_;
   std::optional<LiteralForces<Real>> literal_;
+  std::optional<LiteralCoreRadius<Real>> literal_radius_;
   std::optional<CoreRadius<Real>> core_radius_;
   std::optional<ShearRate<Real>> shear_rate_;
   std::optional<EffectiveViscosity<Real>> rheology_;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "service/sph/effects/literal_core_radius.h"
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/effects/rheology.h"
 #include "service/sph/integrate/kick_drift.h"
@@ -26,20 +27,23 @@ constexpr double kThroatMargin = 16.0;
 /// Of particles' own support radii, over h.
 inline RadiusBounds radiusBounds(const WorldDescription& description) {
   const auto& core_radius = description.effects.core_radius;
-  return core_radius ? RadiusBounds{core_radius->smallest, core_radius->largest} : RadiusBounds{};
+  if (!core_radius) return {};
+  if (description.model == Model::literal) return literalRadiusBounds(description.support_ratio);
+  return {core_radius->smallest, core_radius->largest};
 }
 
 template <class Real>
 std::optional<LatticeFactors<Real>> latticeFactors(const WorldDescription& description) {
-  if (!description.effects.core_radius) return std::nullopt;
+  if (!description.effects.core_radius || description.model == Model::literal) return std::nullopt;
   return LatticeFactors<Real>{{description.kernel, description.supportRadius()}, description.spacing, radiusBounds(description)};
 }
 
-/// Whether particles differ in viscosity: by their block, their shear rate, their platelets or their support radius.
+/// Whether particles differ in viscosity: by their block, their shear rate, their platelets or, in the sound model, their support
+/// radius.
 inline bool viscosityVaries(const WorldDescription& description) {
   const EffectSettings& effects = description.effects;
   if (!effects.viscosity) return false;
-  if (viscosityChanges(effects) || effects.core_radius) return true;
+  if (viscosityChanges(effects) || (effects.core_radius && description.model == Model::sound)) return true;
   for (const FluidBlock& block : description.fluid_blocks) {
     if (block.viscosity && *block.viscosity != effects.viscosity->viscosity) return true;
   }
@@ -221,7 +225,10 @@ inline SweepChoice sweepChoice(const WorldDescription& description) {
 inline PairLayout pairLayout(const WorldDescription& description) {
   if (description.model == Model::literal) {
     const LiteralSet set = literalSet(description);
-    return {.set = {.pressure = set.pressure}, .tissue = !description.tissue.empty(), .least_groups = literalRecordGroups(set)};
+    return {.set = {.pressure = set.pressure, .core_radius = set.core_radius},
+            .tissue = !description.tissue.empty(),
+            .planar = description.planar,
+            .least_groups = literalRecordGroups(set)};
   }
   return {pairSet(description), !description.tissue.empty(), description.effects.surface_tension.has_value()};
 }

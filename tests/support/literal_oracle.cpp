@@ -1,5 +1,6 @@
 #include "tests/support/literal_oracle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,8 +33,6 @@ OracleFields literalOracle(const sph::WorldDescription& d, const OracleParticles
   const double h = d.supportRadius();
   const double layer = d.planar ? d.spacing : 0.0;
   const SmoothingKernel poly6{KernelType::poly6, h, layer};
-  const SmoothingKernel spiky{KernelType::spiky, h, layer};
-  const SmoothingKernel viscous{KernelType::viscosity, h, layer};
   const double mass = calibratedMass(d, poly6);
   const double c0 = sph::speedOfSound(d);
   const double stiffness = d.literal.stiffness.value_or(c0 * c0);
@@ -45,15 +44,19 @@ OracleFields literalOracle(const sph::WorldDescription& d, const OracleParticles
   fields.acceleration.assign(n, Vec3::Zero());
   fields.platelet_rate.assign(n, 0.0);
   fields.neighbors.assign(n, 0);
+  const bool own_radii = d.effects.core_radius.has_value();
+  const auto radius_of = [&](std::size_t i) { return own_radii ? particles.radius[i] * h : h; };
   const auto for_each_neighbor = [&](std::size_t i, auto&& visit) {
+    const double reach = std::max(h, radius_of(i));
     for (std::size_t j = 0; j < n; ++j) {
       const Vec3 offset = nearestOffset(d.domain, particles.position[i] - particles.position[j]);
-      if (offset.norm() < h) visit(j, offset, offset.norm());
+      if (offset.norm() < reach) visit(j, offset, offset.norm());
     }
   };
   for (std::size_t i = 0; i < n; ++i) {
+    const SmoothingKernel own{KernelType::poly6, radius_of(i), layer};
     for_each_neighbor(i, [&](std::size_t, const Vec3&, double r) {
-      fields.density[i] += mass * poly6.value(r);
+      fields.density[i] += mass * own.value(r);
       ++fields.neighbors[i];
     });
   }
@@ -69,6 +72,8 @@ OracleFields literalOracle(const sph::WorldDescription& d, const OracleParticles
   };
   for (std::size_t i = 0; i < n; ++i) {
     const double own = fields.density[i];
+    const SmoothingKernel spiky{KernelType::spiky, radius_of(i), layer};
+    const SmoothingKernel viscous{KernelType::viscosity, radius_of(i), layer};
     Vec3& a = fields.acceleration[i];
     Vec3 normal = Vec3::Zero();
     double laplacian_of_color = 0.0;
@@ -98,7 +103,7 @@ OracleFields literalOracle(const sph::WorldDescription& d, const OracleParticles
                                    (particles.platelet[j] - particles.platelet[i]);
       }
     });
-    if (d.effects.surface_tension && normal.norm() * h > d.literal.normal_cutoff) {
+    if (d.effects.surface_tension && normal.norm() * radius_of(i) > d.literal.normal_cutoff) {
       a -= d.literal.tension * laplacian_of_color / own * normal.normalized();
     }
   }

@@ -7,7 +7,8 @@
 namespace bleedsim::test {
 
 /// Density (20) with poly6, pressure (16)/(17)(19), tension (21)-(23), viscosity (25), platelets (26)(27) and repulsion (35)(36)
-/// with Table I's else-branch, without tissue. `particles.viscosity` is read where the scene has no platelets, if it is not
+/// with Table I's else-branch, without tissue. With core radius (34) every particle's sums are over kernels of its own
+/// `particles.radius`, contacts out to h at least. `particles.viscosity` is read where the scene has no platelets, if it is not
 /// empty. Sees the nearest image across periodic sides. O(n^2).
 OracleFields literalOracle(const sph::WorldDescription& description, const OracleParticles& particles);
 

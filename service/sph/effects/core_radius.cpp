@@ -2,7 +2,6 @@
 
 #include "service/sph/cube_root.h"
 #include "service/sph/rest_lattice.h"
-#include "service/sph/share_range.h"
 
 namespace bleedsim::sph {
 
@@ -25,26 +24,16 @@ CoreRadius<Real>::CoreRadius(const CoreRadiusSettings& settings, double rest_den
       least_ratio_{smallest_ * smallest_ * smallest_},
       most_ratio_{largest_ * largest_ * largest_},
       rest_density_{static_cast<Real>(rest_density)},
-      largest_of_share_(static_cast<std::size_t>(shares)) {}
+      mover_{shares} {}
 
 template <class Real>
 Real CoreRadius<Real>::update(Particles<Real>& p, const Real* density, std::uint32_t count, int shares, Executor& executor) {
-  executor.run(shares, [&](int share) {
-    const ShareRange range{count, share, shares};
-    Real most = Real(1);
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      if (p.driver[i] != 0) continue;
-      const Real volume = Real(1) / (Real(1) + followed(density[i] / rest_density_ - Real(1)));
-      const Real ratio = std::min(std::max(least_ratio_, volume), most_ratio_);
-      const Real moved = p.radius[i] + relaxation_ * (cubeRoot(ratio) - p.radius[i]);
-      p.radius[i] = std::min(std::max(smallest_, moved), largest_);
-      most = std::max(most, p.radius[i]);
-    }
-    largest_of_share_[static_cast<std::size_t>(share)].radius = most;
+  return mover_.move(p, density, count, shares, executor, [&](Real rho, Real radius) {
+    const Real volume = Real(1) / (Real(1) + followed(rho / rest_density_ - Real(1)));
+    const Real ratio = std::min(std::max(least_ratio_, volume), most_ratio_);
+    const Real moved = radius + relaxation_ * (cubeRoot(ratio) - radius);
+    return std::min(std::max(smallest_, moved), largest_);
   });
-  Real most = Real(1);
-  for (int share = 0; share < shares; ++share) most = std::max(most, largest_of_share_[static_cast<std::size_t>(share)].radius);
-  return most;
 }
 
 template class LatticeFactors<float>;

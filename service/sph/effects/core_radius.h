@@ -17,10 +17,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
-#include "service/sph/aligned_array.h"
 #include "service/sph/effect_settings.h"
+#include "service/sph/effects/move_radii.h"
 #include "service/sph/executor.h"
 #include "service/sph/particles.h"
 #include "service/sph/radius_nodes.h"
@@ -69,14 +68,10 @@ class CoreRadius {
     return std::copysign(std::min(size, std::max(Real(0), Real(2) * (size - static_cast<Real>(kQuiet)))), deviation);
   }
 
-  struct alignas(64) Largest {
-    Real radius = 1;
-  };
-
   Real smallest_, largest_, relaxation_;
   Real least_ratio_, most_ratio_;  // of volumes: the bounds' cubes
   Real rest_density_;
-  std::vector<Largest> largest_of_share_;
+  RadiusMover<Real> mover_;
 };
 
 extern template class LatticeFactors<float>;

@@ -26,19 +26,19 @@ class LiteralRepulsion {
   using Real = typename L::Scalar;
   static constexpr int kGroups = 1;
 
-  LiteralRepulsion(const LiteralJob<Real>& job, const Real*) : job_{job} {}
+  LiteralRepulsion(const LiteralJob<Real>& job, const Real*) : job_{&job} {}
 
   /// Table I's else: 0 between particles in contact, `value` between others.
   HWY_INLINE V apart(const Pair<L>& p, V value) const {
-    return L::ifBelow(p.q2, L::set(job_.contact * job_.contact), L::set(Real(0)), value);
+    return L::ifBelow(p.q2, L::set(job_->contact * job_->contact), L::set(Real(0)), value);
   }
 
   HWY_INLINE void pair(const Pair<L>& p, const PaperWeights<L>&, PairSums<L>& sums) const {
     const V zero = L::set(Real(0));
     const V inverse_distance = L::set(Real(1)) / L::max(L::sqrt(p.q2), L::set(Real(1e-3)));
-    const V pe = L::max(L::set(job_.contact) * inverse_distance, L::set(Real(1)));
-    const V strength = power(pe, job_.repulsion_powers[0]) - power(pe, job_.repulsion_powers[1]);
-    const V push = L::min(L::set(job_.repulsion_scale) * strength * (inverse_distance * inverse_distance), L::set(Real(1e15)));
+    const V pe = L::max(L::set(job_->contact) * inverse_distance, L::set(Real(1)));
+    const V strength = power(pe, job_->repulsion_powers[0]) - power(pe, job_->repulsion_powers[1]);
+    const V push = L::min(L::set(job_->repulsion_scale) * strength * (inverse_distance * inverse_distance), L::set(Real(1e15)));
     const V along = L::ifBelow(p.q2, L::set(Real(1e-12)), zero, push / L::max(L::sqrt(p.q2), L::set(Real(1e-6))));
     sums.ax = L::subMul(sums.ax, along, p.dx);
     sums.ay = L::subMul(sums.ay, along, p.dy);
@@ -52,7 +52,7 @@ class LiteralRepulsion {
     return result;
   }
 
-  const LiteralJob<Real>& job_;
+  const LiteralJob<Real>* job_;
 };
 
 }  // namespace bleedsim::sph::HWY_NAMESPACE

@@ -41,12 +41,12 @@ class LiteralTension {
     laplacian_ = laplacian_ + L::ifBelow(p.q2, L::set(Real(1e-12)), L::set(Real(0)), laplacian);
   }
 
-  /// Adds to the acceleration of the particle whose neighbours were all seen.
-  void finish(const LiteralJob<Real>& job, Real* acceleration) const {
+  /// Adds to the acceleration of the particle whose neighbours were all seen. `inverse_radius2`: (h/h_i)^2, as |n| h_i counts.
+  void finish(const LiteralJob<Real>& job, Real inverse_radius2, Real* acceleration) const {
     alignas(64) Real field[4];  // n, lap C, without their norms
     L::storeSums(nx_, ny_, nz_, laplacian_, field);
     const Real length2 = field[0] * field[0] + field[1] * field[1] + field[2] * field[2];
-    if (!(length2 > job.tension_cutoff2)) return;
+    if (!(length2 > job.tension_cutoff2 * inverse_radius2)) return;
     const Real scale = -job.tension_scale * field[3] * inverse_density_ / std::sqrt(length2);
     for (int a = 0; a < 3; ++a) acceleration[a] += scale * field[a];
   }

@@ -54,7 +54,7 @@ enum RecordField : int {
   kRecordInverseViscosity = 8,  ///< 1/(Pa s)
   kRecordPlatelet = 9,          ///< P, 0 to 1
   kRecordInverseRadius2 = 10,   ///< (h/h_i)^2; 1 without (34)
-  kRecordRadiusFactor = 11,     ///< (h/h_i)^5 times the lattice's mass factor at h_i; 1 without (34)
+  kRecordRadiusFactor = 11,     ///< (h/h_i)^(d+2) times the lattice's mass factor at h_i; 1 without (34)
   kRecordNormalX = 12,          ///< unit surface normal, out of nothing into the fluid; 0 in the bulk
   kRecordNormalY = 13,
   kRecordNormalZ = 14,

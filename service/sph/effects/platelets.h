@@ -11,6 +11,9 @@
 // rho_i/rho0 is 0.2 to 0.5 there, so A_a = 1; it is 1 in the bulk. Deviation from the paper: its diffusion alone conserves the
 // sum of P and so never clots. In time: P <- (P + dt diffusion)/(1 + dt sinks/P), the walls' sink after the others: first order
 // like the explicit form, but never below 0; then P is held within 0 and 1.
+// Where particles have support radii of their own (34), diffusion keeps the rest lattice's factor of h: that of viscosity travels
+// in 1/mu, and the records have no room for another. k then acts as 0.89 k at 0.9 h and 1.03 k at 1.3 h (h = 2 dx; 1.01 and 1.04
+// at 2.5 dx, 0.97 and 1.01 at 3 dx); radii are h but at surfaces and in films.
 #pragma once
 
 #include <cstdint>

@@ -21,9 +21,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 
-/// kRadius: every particle has a support radius of its own (34). A pair then weighs (W(h_i) + W(h_j))/2, each W with its
-/// lattice's mass factor, and the lists reach as far as the largest radius.
-template <class L, template <class> class KernelOf, bool kPeriodic, bool kTissue, bool kRadius>
+/// kRadius: whose support radius a pair is weighed with. mean: (W(h_i) + W(h_j))/2, each W with its lattice's mass factor, and
+/// the lists reach as far as the largest radius. own: W(h_i), and a list reaches as far as ownReach2().
+template <class L, template <class> class KernelOf, bool kPeriodic, bool kTissue, SupportRadius kRadius>
 class DensityPass {
  public:
   using Real = typename L::Scalar;
@@ -52,8 +52,16 @@ class DensityPass {
 
   explicit DensityPass(DensityJob<Real>& job) : job_{job}, stride_{static_cast<std::uint32_t>(4 * job.groups)} {}
 
-  /// Squared search radius in support radii, a constant of the program where it is 1.
-  V reach2() const { return L::set(kRadius ? job_.reach2 : Real(1)); }
+  /// Squared search radius in support radii, a constant of the program where it is 1: of all, and of one particle.
+  V reach2() const { return L::set(kRadius == SupportRadius::common ? Real(1) : job_.reach2); }
+  Real reach2Of([[maybe_unused]] std::uint32_t i) const {
+    if constexpr (kRadius == SupportRadius::common)
+      return Real(1);
+    else if constexpr (kRadius == SupportRadius::mean)
+      return job_.reach2;
+    else
+      return ownReach2(job_.record + static_cast<std::size_t>(i) * stride_);
+  }
 
   void sweepRow(int row) {
     const std::uint32_t* start = job_.grid.start;
@@ -138,8 +146,8 @@ class DensityPass {
     if constexpr (kPeriodic) block_run_[at] = static_cast<std::uint8_t>(run_index);
   }
 
-  void take(Hits& hits, V q2, typename L::Ids ids) const {
-    const auto inside = L::below(q2, reach2());
+  void take(Hits& hits, V q2, typename L::Ids ids, V reach) const {
+    const auto inside = L::below(q2, reach);
     L::compress(q2, inside, hits.q2 + hits.count);
     L::compress(ids, inside, hits.ids + hits.count);
     hits.count += L::countTrue(inside);
@@ -187,8 +195,9 @@ class DensityPass {
     const V x = L::set(job_.x[i]);
     const V y = L::set(job_.y[i]);
     const V z = L::set(job_.z[i]);
+    const V reach = L::set(reach2Of(i));
     for (int c = 0; c < candidates_; c += kWidth) {
-      take(hits, distance2<L>(L::load(x_ + c) - x, L::load(y_ + c) - y, L::load(z_ + c) - z), L::loadIds(ids_ + c));
+      take(hits, distance2<L>(L::load(x_ + c) - x, L::load(y_ + c) - y, L::load(z_ + c) - z), L::loadIds(ids_ + c), reach);
       if (hits.count > kListLimit) return false;
     }
     return true;
@@ -200,13 +209,15 @@ class DensityPass {
     const V x1 = L::set(job_.x[i + 1]);
     const V y1 = L::set(job_.y[i + 1]);
     const V z1 = L::set(job_.z[i + 1]);
+    const V reach0 = L::set(reach2Of(i));
+    const V reach1 = L::set(reach2Of(i + 1));
     for (int c = 0; c < candidates_; c += kWidth) {
       const V x = L::load(x_ + c);
       const V y = L::load(y_ + c);
       const V z = L::load(z_ + c);
       const auto ids = L::loadIds(ids_ + c);
-      take(a, distance2<L>(x - x0, y - y0, z - z0), ids);
-      take(b, distance2<L>(x - x1, y - y1, z - z1), ids);
+      take(a, distance2<L>(x - x0, y - y0, z - z0), ids, reach0);
+      take(b, distance2<L>(x - x1, y - y1, z - z1), ids, reach1);
       if (std::max(a.count, b.count) > kListLimit) return false;
     }
     return true;
@@ -259,7 +270,7 @@ class DensityPass {
     for (int r = 0; r < kWidth; ++r) rows[r] = L::set(Real(0));
     V sum = L::set(Real(0));
     DirectSearch<L, kPeriodic>::run(
-        job_, runs, run_count, i, stride_,
+        job_, runs, run_count, i, stride_, reach2Of(i),
         [&](const Real* q2, const std::uint32_t* list, int vectors) { addWeights(i, q2, list, vectors, sum); });
     rows[0] = sum;
     alignas(64) Real sums[kWidth];
@@ -271,12 +282,18 @@ class DensityPass {
 
   HWY_INLINE void addWeights([[maybe_unused]] std::uint32_t i, const Real* q2, [[maybe_unused]] const std::uint32_t* list,
                              int vectors, V& sum) const {
-    if constexpr (!kRadius) {
+    if constexpr (kRadius == SupportRadius::common) {
       for (int v = 0; v < vectors; ++v) sum = sum + Kernel::weight(L::load(q2 + v * kWidth));
-    } else {
-      const Real* own = job_.record + static_cast<std::size_t>(i) * stride_;
-      const V own_inverse2 = L::set(own[kRecordInverseRadius2]);
-      const V own_factor = L::set(own[kRecordRadiusFactor] / own[kRecordInverseRadius2]);  // (h/h_i)^3, calibrated
+      return;
+    }
+    const Real* own = job_.record + static_cast<std::size_t>(i) * stride_;
+    const V own_inverse2 = L::set(own[kRecordInverseRadius2]);
+    const V own_factor = L::set(own[kRecordRadiusFactor] / own[kRecordInverseRadius2]);  // (h/h_i)^d, calibrated
+    if constexpr (kRadius == SupportRadius::own) {
+      for (int v = 0; v < vectors; ++v) {
+        sum = L::mulAdd(own_factor, Kernel::weight(L::load(q2 + v * kWidth) * own_inverse2), sum);
+      }
+    } else if constexpr (kRadius == SupportRadius::mean) {
       for (int v = 0; v < vectors; ++v, list += kWidth) {
         const V distance2 = L::load(q2 + v * kWidth);
         V field[4];

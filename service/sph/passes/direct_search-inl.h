@@ -9,6 +9,9 @@
 #define BLEEDSIM_SPH_PASSES_DIRECT_SEARCH_INL_H_
 #endif
 
+#include <algorithm>
+
+#include "service/sph/effects/pair_set.h"
 #include "service/sph/neighbors/grid_view.h"
 #include "service/sph/passes/lanes-inl.h"
 #include "service/sph/passes/pass_jobs.h"
@@ -20,6 +23,13 @@ namespace bleedsim::sph::HWY_NAMESPACE {
 template <class L>
 HWY_INLINE typename L::V distance2(typename L::V dx, typename L::V dy, typename L::V dz) {
   return L::mulAdd(dz, dz, L::mulAdd(dy, dy, dx * dx));
+}
+
+/// How far the list of a particle with this record reaches where it sees others within its own support radius, squared, in h:
+/// never less than h, out to which contacts are seen.
+template <class Real>
+HWY_INLINE Real ownReach2(const Real* record) {
+  return std::max(Real(1), Real(1) / record[kRecordInverseRadius2]);
 }
 
 /// Who gets the neighbours, as a plain function: the search is compiled once, not for every set of effects.
@@ -36,11 +46,11 @@ class DirectSearch {
   using Real = typename L::Scalar;
   using V = typename L::V;
 
-  /// Calls consume(squared distances, record offsets, vectors) with the neighbours of particle i, padded to whole vectors with
-  /// q2 = reach2 and the far dummy, record `count`. `job` has x, y, z, reach2 and count.
+  /// Calls consume(squared distances, record offsets, vectors) with the neighbours of particle i nearer than sqrt(reach2), padded
+  /// to whole vectors with q2 = reach2 and the far dummy, record `count`. `job` has x, y, z and count.
   template <class Job, class Consume>
   HWY_NOINLINE static void run(const Job& job, const NeighborRun<Real>* runs, int run_count, std::uint32_t i,
-                               std::uint32_t stride, const Consume& consume) {
+                               std::uint32_t stride, Real reach2, const Consume& consume) {
     alignas(64) Real q2[kChunk + 2 * kWidth];
     alignas(64) std::uint32_t ids[kChunk + 2 * kWidth];
     int count = 0;
@@ -58,7 +68,7 @@ class DirectSearch {
           z = z + L::set(runs[k].shift_z);
         }
         const V distance = distance2<L>(x - own_x, y - own_y, z - own_z) + L::tail(runs[k].end - j);
-        const auto inside = L::below(distance, L::set(job.reach2));
+        const auto inside = L::below(distance, L::set(reach2));
         L::compress(distance, inside, q2 + count);
         L::compress(L::idRow(j * stride, stride), inside, ids + count);
         count += L::countTrue(inside);
@@ -69,18 +79,19 @@ class DirectSearch {
         count -= kChunk;
       }
     }
-    L::storeUnaligned(L::set(job.reach2), q2 + count);
+    L::storeUnaligned(L::set(reach2), q2 + count);
     L::storeIds(L::setIds(job.count * stride), ids + count);
     consume(q2, ids, (count + kWidth - 1) / kWidth);
   }
 
   /// The same for a particle of which only the grid's row is known.
-  HWY_NOINLINE static void runInRow(const SweepJob<Real>& job, int row, std::uint32_t i, const ChunkSink<Real>& consume) {
+  HWY_NOINLINE static void runInRow(const SweepJob<Real>& job, int row, std::uint32_t i, Real reach2,
+                                    const ChunkSink<Real>& consume) {
     int cx = 1;
     while (job.grid.start[job.grid.cell(row, cx) + 1] <= i) ++cx;
     NeighborRun<Real> runs[GridView<Real>::kMaxRuns];
     const int run_count = job.grid.template neighborRuns<kPeriodic>(row, cx, runs);
-    run(job, runs, run_count, i, static_cast<std::uint32_t>(4 * job.groups), consume);
+    run(job, runs, run_count, i, static_cast<std::uint32_t>(4 * job.groups), reach2, consume);
   }
 
  private:

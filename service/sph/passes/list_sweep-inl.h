@@ -17,8 +17,9 @@ namespace bleedsim::sph::HWY_NAMESPACE {
 
 /// Body: Job (a SweepJob); kGroups, the record groups that it reads of each neighbour (from the first on; others by gatherGroup);
 /// a constructor from (job, i, own record); pair(p); finish(job, i). Where it has needed() and that is false, its neighbours are
-/// not walked.
-/// kRadius: the pair's gradient is that of (W(h_i) + W(h_j))/2 with their mass factors, and kGroups covers the radius fields.
+/// not walked. Where it has reach2(), its particle's list reaches that far, not job.reach2. Where it has kCompact, one compiled
+/// walk serves lists and cells: half the code, for the price of a call and of the body's way through memory. kRadius: the pair's
+/// gradient is that of (W(h_i) + W(h_j))/2 with their mass factors, and kGroups covers the radius fields.
 template <class L, template <class> class KernelOf, bool kPeriodic, bool kRadius, class Body>
 class ListSweep {
  public:
@@ -53,8 +54,21 @@ class ListSweep {
   static void particle(const Job& job, std::uint32_t i, const std::uint32_t* list, int blocks) {
     const Real* own = job.record + static_cast<std::size_t>(i) * static_cast<std::uint32_t>(4 * job.groups);
     Body body{job, i, own};
-    if (isNeeded(body)) addBlocks(job, own, list, blocks, body);
+    if (isNeeded(body)) walk(job, own, list, blocks, body);
     body.finish(job, i);
+  }
+
+  HWY_INLINE static void walk(const Job& job, const Real* own, const std::uint32_t* list, int blocks, Body& body) {
+    if constexpr (requires { Body::kCompact; })
+      addBlocksApart(job, own, list, blocks, body);
+    else
+      addBlocks(job, own, list, blocks, body);
+  }
+
+  HWY_NOINLINE static void addBlocksApart(const Job& job, const Real* own, const std::uint32_t* list, int blocks, Body& body) {
+    Body in_registers = body;
+    addBlocks(job, own, list, blocks, in_registers);
+    body = in_registers;
   }
 
   HWY_INLINE static void addBlocks(const Job& job, const Real* own, const std::uint32_t* list, int blocks, Body& body) {
@@ -99,7 +113,7 @@ class ListSweep {
   };
   static void addChunk(void* taker, const Real*, const std::uint32_t* list, int blocks) {
     const Apart& apart = *static_cast<const Apart*>(taker);
-    addBlocks(*apart.job, apart.own, list, blocks, *apart.body);
+    walk(*apart.job, apart.own, list, blocks, *apart.body);
   }
 
   /// A particle without a list: its neighbours come straight from the cells.
@@ -110,8 +124,10 @@ class ListSweep {
       body.finish(job, i);
       return;
     }
+    Real reach2 = job.reach2;
+    if constexpr (requires { body.reach2(); }) reach2 = body.reach2();
     Apart apart{&job, own, &body};
-    DirectSearch<L, kPeriodic>::runInRow(job, row, i, {&addChunk, &apart});
+    DirectSearch<L, kPeriodic>::runInRow(job, row, i, reach2, {&addChunk, &apart});
     body.finish(job, i);
   }
 };

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "service/sph/effects/literal_core_radius-inl.h"
 #include "service/sph/effects/literal_platelets-inl.h"
 #include "service/sph/effects/literal_pressure-inl.h"
 #include "service/sph/effects/literal_repulsion-inl.h"
@@ -45,16 +46,18 @@ class LiteralBody {
  public:
   static constexpr int kGroups =
       std::max({Pressure::kGroups, Tension::kGroups, Viscosity::kGroups, Platelets::kGroups, Repulsion::kGroups});
+  static constexpr bool kCompact = true;
 
   LiteralBody(const Job& job, std::uint32_t, const Real* record)
-      : pressure_{job, record},
+      : own_{record},
+        pressure_{job, record},
         tension_{job, record},
         viscosity_{job, record},
         platelets_{job, record},
         repulsion_{job, record} {}
 
   HWY_INLINE void pair(const Pair<L>& p) {
-    PaperWeights<L> w{p.gradient, complementOf<L>(p.q2)};
+    PaperWeights<L> w = own_.weights(p);
     if constexpr (kSet.repulsion) {
       w.gradient = repulsion_.apart(p, w.gradient);
       w.complement = repulsion_.apart(p, w.complement);
@@ -69,10 +72,12 @@ class LiteralBody {
   void finish(const Job& job, std::uint32_t i) const {
     Real* acceleration = job.acceleration + static_cast<std::size_t>(i) * 4;
     sums_.store(acceleration);
-    if constexpr (kSet.tension) tension_.finish(job, acceleration);
+    if constexpr (kSet.tension) tension_.finish(job, own_.inverse2(), acceleration);
   }
+  Real reach2() const { return own_.reach2(); }
 
  private:
+  [[no_unique_address]] CoreRadiusOf<L, kSet.core_radius> own_;
   [[no_unique_address]] Pressure pressure_;
   [[no_unique_address]] Tension tension_;
   [[no_unique_address]] Viscosity viscosity_;

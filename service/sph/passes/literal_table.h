@@ -1,5 +1,5 @@
-// The compiled passes of the literal model of one SIMD target and kind of boundary: poly6 density passes, and one force pass for
-// each set of the paper's terms.
+// The compiled passes of the literal model of one SIMD target: poly6 density passes of one kind of boundary, and one force pass
+// for each set of the paper's terms, which serves both kinds.
 #pragma once
 
 #include <array>

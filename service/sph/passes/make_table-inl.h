@@ -75,9 +75,10 @@ constexpr std::array<ForceFunction<typename L::Scalar>, PairSet::kCount> forcePa
 template <class L, template <class> class Kernel, bool kPeriodic, bool kTissue, SetRange kRange>
 constexpr std::array<DensityFunction<typename L::Scalar>, 2> densityPasses() {
   if constexpr (kRange == SetRange::plain)
-    return {&DensityPass<L, Kernel, kPeriodic, kTissue, false>::run, nullptr};
+    return {&DensityPass<L, Kernel, kPeriodic, kTissue, SupportRadius::common>::run, nullptr};
   else
-    return {&DensityPass<L, Kernel, kPeriodic, kTissue, false>::run, &DensityPass<L, Kernel, kPeriodic, kTissue, true>::run};
+    return {&DensityPass<L, Kernel, kPeriodic, kTissue, SupportRadius::common>::run,
+            &DensityPass<L, Kernel, kPeriodic, kTissue, SupportRadius::mean>::run};
 }
 
 template <class L, template <class> class Kernel, bool kPeriodic, SetRange kRange>

@@ -38,6 +38,7 @@ struct PairLayout {
   PairSet set;
   bool tissue = false;
   bool tension = false;  ///< the records hold the surface's normals
+  bool planar = false;
   int least_groups = 1;  ///< of record fields, for passes that the set does not name
 };
 
@@ -45,13 +46,14 @@ template <class Real>
 class PairPasses {
  public:
   /// `table` must hold the layout's set of effects: createWorld checks it. `support_ratio` is that of the largest radius;
-  /// `lattice` comes with (34).
+  /// `lattice` comes with (34) of the sound model.
   PairPasses(const PassTable<Real>& table, const PairLayout& layout, const PairConstants<Real>& constants, std::uint32_t capacity,
              double support_ratio, int shares, const std::optional<LatticeFactors<Real>>& lattice = std::nullopt)
       : density_function_{table.density[layout.tissue ? 1 : 0][layout.set.core_radius ? 1 : 0]},
         force_function_{table.force[layout.set.index()]},
         inviscid_function_{table.force[withoutViscosity(layout.set).index()]},
         symmetric_{layout.set.pressure == PressureTerm::symmetric},
+        planar_{layout.planar},
         groups_{std::max(layout.least_groups, recordGroups(layout.set, layout.tension))},
         constants_{constants},
         lattice_{lattice},
@@ -230,7 +232,8 @@ class PairPasses {
   void packRadius(Real* record, Real radius) const {
     const Real inverse2 = Real(1) / (radius * radius);
     record[kRecordInverseRadius2] = inverse2;
-    record[kRecordRadiusFactor] = inverse2 * inverse2 / radius * (lattice_ ? lattice_->mass(radius) : Real(1));
+    const Real factor = inverse2 * inverse2 / (planar_ ? Real(1) : radius);
+    record[kRecordRadiusFactor] = factor * (lattice_ ? lattice_->mass(radius) : Real(1));
   }
 
   /// The far dummy touches nothing and keeps every division defined.
@@ -244,10 +247,11 @@ class PairPasses {
   ForceFunction<Real> force_function_;
   ForceFunction<Real> inviscid_function_;
   bool symmetric_;
+  bool planar_;
   int groups_;
   PairConstants<Real> constants_;
   Real growth_ = 1;                              // of the contact distance
-  std::optional<LatticeFactors<Real>> lattice_;  // with (34)
+  std::optional<LatticeFactors<Real>> lattice_;  // with (34) of the sound model
   AlignedArray<Real> record_;
   AlignedArray<Real> density_;       // kg/m^3
   AlignedArray<Real> acceleration_;  // 4 per particle, m/s^2

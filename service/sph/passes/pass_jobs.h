@@ -11,6 +11,10 @@ namespace bleedsim::sph {
 constexpr int kMaxNeighbors = 192;           ///< a list's length; more go the slow path
 constexpr std::uint8_t kOverflowList = 255;  ///< in NeighborLists::blocks: this particle takes the slow path
 
+/// The support radius that a density pass weighs a pair with: h for all, the mean of both particles' kernels (the sound model's
+/// (34)), or the particle's own (the literal model's).
+enum class SupportRadius : std::uint8_t { common, mean, own };
+
 /// The padded neighbour lists of one share. An entry is the neighbour's record offset in scalars.
 struct NeighborLists {
   std::uint32_t* entries = nullptr;

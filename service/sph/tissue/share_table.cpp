@@ -106,8 +106,9 @@ ShareTables<Real>::ShareTables(const ShareSettings& settings, double curvature) 
     ShareSettings own = settings;
     own.kernel.h *= radius;
     own.softening_radius = settings.kernel.h;
-    const double calibrated = calibrateRestLattice(own.kernel, own.spacing, own.rest_density).particle_mass;
-    own.particle_mass *= calibrated / calibrated_at_h;
+    if (settings.calibrates_radii) {
+      own.particle_mass *= calibrateRestLattice(own.kernel, own.spacing, own.rest_density).particle_mass / calibrated_at_h;
+    }
     tables_.emplace_back(own, curvature);
   }
 }

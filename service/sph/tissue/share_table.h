@@ -20,6 +20,7 @@ struct ShareSettings {
   double particle_mass = 0.0;                ///< kg, calibrated (rest_lattice.h)
   double rest_density = 0.0;                 ///< kg/m^3
   RadiusBounds radii{};                      ///< of particles' own support radii, over kernel.h
+  bool calibrates_radii = true;              ///< the mass is calibrated at every radius, not at h alone
   std::optional<double> softening_radius{};  ///< whose 0.01 h^2 softens the friction, m; without it kernel.h
 };
 
@@ -60,8 +61,8 @@ class ShareTable {
   std::vector<Share<Real>> nodes_;
 };
 
-/// ShareTable for particles with support radii of their own (34): one at each of the radius' nodes, calibrated there, linear
-/// between. A single table where radii do not vary.
+/// ShareTable for particles with support radii of their own (34): one at each of the radius' nodes, linear between. A single
+/// table where radii do not vary.
 template <class Real>
 class ShareTables {
  public:

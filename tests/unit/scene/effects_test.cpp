@@ -15,6 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(SceneEffects, ConvertToSiUnits) {
   const Result<SceneDescription> scene = parseScene(kEffectScene);
@@ -216,7 +217,7 @@ const std::vector<Rule>& rules() {
       {"model: SOUND", "model: LITERAL literal { contact_radius: 0.6 }",
        "literal.contact_radius: value 0.6 is out of range, allowed 0.05 to 0.5 (spacings)"},
       {"model: SOUND", "model: LITERAL literal { power_1: 4 power_2: 4 }", "literal.power_1: value 4 must be above power_2, 4"},
-      {"model: SOUND", "model: LITERAL", "model: the literal model has one support radius for all particles"},
+      {"model: SOUND", "model: LITERAL", "model: the paper has no adhesion"},
   };
   return kRules;
 }
@@ -247,6 +248,14 @@ TEST(SceneEffects, WhatAnEffectNeedsIsSaidOfThatEffect) {
               HasSubstr("output.attributes: PLATELET needs the platelets"));
   EXPECT_THAT(problems_of("surface_tensoin {}"), HasSubstr("did you mean 'surface_tension'?"));
   EXPECT_THAT(problems_of("platelets { clot_viscosity: 1 }"), HasSubstr("did you mean 'clot_viscosity_pa_s'?"));
+}
+
+// The literal model's radii go up to 3.75 spacings, whatever the sound model's bounds say.
+TEST(SceneEffects, LiteralRadiiNeedRoomOfTheirOwn) {
+  const std::string text = replaced(kEffectScene, "model: SOUND", "model: LITERAL");
+  EXPECT_THAT(parseScene(replaced(text, "y: -0.05", "y: 0.0275")).status().message(),
+              HasSubstr("\neffects.core_radius: three of its reaches are 0.0225 m, the periodic side y is 0.0225 m"));
+  EXPECT_THAT(parseScene(replaced(text, "y: -0.05", "y: 0.0274")).status().message(), Not(HasSubstr("core_radius")));
 }
 
 TEST(SceneEffects, AllProblemsAreToldAtOnce) {

@@ -64,6 +64,7 @@ TEST(AllocationOfTheLiteralModel, StepAllocatesNothing) {
   WorldDescription description = test::freeBlock({8, 8, 8}, 0.2);
   description.model = Model::literal;
   description.effects.surface_tension.emplace();
+  description.effects.core_radius.emplace();
   description.effects.platelets.emplace();
   description.effects.repulsion.emplace();
   const auto world = test::makeWorld(description);

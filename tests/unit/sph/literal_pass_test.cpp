@@ -1,6 +1,7 @@
 // Every set of the literal model's terms against the paper's sums in double precision, and its laws for two particles.
 #include <gtest/gtest.h>
 #include <tuple>
+#include <utility>
 
 #include "tests/support/literal_oracle.h"
 #include "tests/unit/sph/literal_scenes.h"
@@ -12,9 +13,9 @@ using test::literalOracle;
 using test::OracleFields;
 using test::OracleParticles;
 
-/// 9 x 8 x 7 stirred particles, some of them in contact and some at the surface.
+/// Stirred particles, some of them in contact and some at the surface, on an axis as short as three of the largest radii allow.
 WorldDescription scene(LiteralSet set, bool periodic) {
-  WorldDescription description = literal(test::periodicBox({9, 8, 7}, 0.3), set);
+  WorldDescription description = literal(test::periodicBox({9, 8, set.core_radius ? 8 : 7}, 0.3), set);
   description.domain.periodic = {periodic, false, periodic};
   description.fluid_blocks.front().viscosity = 0.02;  // so that particles carry their own
   return description;
@@ -78,9 +79,11 @@ INSTANTIATE_TEST_SUITE_P(AllSets, LiteralPass, testing::Combine(testing::ValuesI
                          });
 
 constexpr LiteralSet kEverything{PressureTerm::symmetric, true, true, true, true};
+constexpr LiteralSet kEverythingOwn{PressureTerm::symmetric, true, true, true, true, true};
 
 TEST(LiteralPasses, InThePlaneEqualTheOracle) {
-  for (const LiteralSet set : {kEverything, LiteralSet{PressureTerm::variational, true, true, true, false}}) {
+  for (const LiteralSet set : {kEverything, kEverythingOwn, LiteralSet{PressureTerm::variational, true, true, true, false},
+                               LiteralSet{PressureTerm::variational, true, true, true, false, true}}) {
     const WorldDescription description = literal(layer(13, 12, 0.3), set);
     const PassRig<double> reference{description, SimdTarget::scalar, stirredLayer(description)};
     const OracleFields oracle = literalOracle(description, reference.rounded());
@@ -95,8 +98,8 @@ TEST(LiteralPasses, InThePlaneEqualTheOracle) {
 }
 
 TEST(LiteralPasses, WithOtherConstantsAndSupportsEqualTheOracle) {
-  for (const double ratio : {1.5, 3.0}) {
-    WorldDescription description = literal(test::freeBlock({9, 8, 7}, 0.3), kEverything);
+  for (const auto& [ratio, set] : {std::pair{1.5, kEverything}, std::pair{3.0, kEverything}, std::pair{2.5, kEverythingOwn}}) {
+    WorldDescription description = literal(test::freeBlock({9, 8, 7}, 0.3), set);
     description.support_ratio = ratio;
     description.literal.stiffness = 7.0;
     description.literal.tension = 0.02;
@@ -241,8 +244,36 @@ TEST(LiteralPair, ParticlesInContactFeelRepulsionAndNothingElse) {
   EXPECT_EQ(of(repulsion_only, outside).acceleration()[0].norm(), 0.0);
 }
 
+// A crowd in which some have no room for a list and some have one: the same sums, whichever way they are gathered.
+TEST(LiteralPasses, CrowdsOfOwnRadiiEqualTheOracle) {
+  const WorldDescription description = literal(test::freeBlock({9, 9, 9}, 0.3), kEverythingOwn);
+  OracleParticles particles = stirred(description);
+  for (Vec3& position : particles.position) position *= 0.6;
+  for (std::size_t i = 0; i < particles.radius.size(); ++i) particles.radius[i] = i % 3 == 0 ? 0.6 : 1.5;
+  for (const SimdTarget target : availableSimdTargets()) {
+    const PassRig<float> rig{description, target, particles};
+    EXPECT_GT(rig.overflowed(), 50u);
+    EXPECT_LT(rig.overflowed(), particles.position.size() - 50);
+    expectFields(rig.density(), rig.acceleration(), rig.plateletRate(), literalOracle(description, rig.rounded()), 1e-5);
+    const PassRig<float> many{description, target, particles, 3};
+    EXPECT_EQ(rig.acceleration(), many.acceleration());
+  }
+}
+
+// Of two particles with different radii each feels the other with the kernel of its own: action is not reaction, and one may not
+// feel the other at all.
+TEST(LiteralPair, RadiiOfTheirOwnBreakTheThirdLaw) {
+  const WorldDescription description =
+      literal(test::freeBlock({2, 1, 1}), {.pressure = PressureTerm::variational, .core_radius = true});
+  OracleParticles particles = pairAt(0.0021);
+  particles.radius = {1.5, 0.8};
+  const PassRig<double> rig{description, SimdTarget::scalar, particles};
+  EXPECT_GT(rig.acceleration()[0].norm(), 1.0);
+  EXPECT_EQ(rig.acceleration()[1].norm(), 0.0);
+}
+
 TEST(LiteralPasses, CoincidentParticlesAreFinite) {
-  const WorldDescription description = literal(test::freeBlock({3, 3, 3}), kEverything);
+  const WorldDescription description = literal(test::freeBlock({3, 3, 3}), kEverythingOwn);
   OracleParticles particles = stirred(description);
   for (std::size_t i = 0; i < 9; ++i) particles.position[i] = particles.position[0];
   particles.position[10] = particles.position[9] + Vec3{1e-12, 0.0, 0.0};

@@ -24,6 +24,7 @@ inline std::string nameOf(LiteralSet set) {
   if (set.viscosity) name += "Viscosity";
   if (set.platelets) name += "Platelets";
   if (set.repulsion) name += "Repulsion";
+  if (set.core_radius) name += "CoreRadius";
   return name.empty() ? "Nothing" : name;
 }
 
@@ -39,6 +40,7 @@ inline WorldDescription literal(WorldDescription description, LiteralSet set) {
   if (set.viscosity) effects.viscosity.emplace();
   if (set.platelets) effects.platelets.emplace();
   if (set.repulsion) effects.repulsion.emplace();
+  if (set.core_radius) effects.core_radius.emplace();
   return description;
 }
 

@@ -7,7 +7,7 @@
 namespace bleedsim::sph {
 namespace {
 
-constexpr LiteralSet kEverything{PressureTerm::symmetric, true, true, true, true};
+constexpr LiteralSet kEverything{PressureTerm::symmetric, true, true, true, true, true};
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
 void step(World& world, int steps) {
@@ -132,7 +132,6 @@ TEST(LiteralRefusal, SaysWhatThePaperDoesNotHave) {
     change(description);
     EXPECT_EQ(refusalOf(description, part), StatusCode::unsupported);
   };
-  expect("support radius", [](WorldDescription& d) { d.effects.core_radius.emplace(); });
   expect("adhesion", [](WorldDescription& d) { d.effects.adhesion.emplace(); });
   expect("background", [](WorldDescription& d) { d.effects.pressure->background_pressure = 10.0; });
   expect("shear rate", [](WorldDescription& d) { d.effects.viscosity->rheology = CassonRheology{}; });
@@ -235,10 +234,7 @@ TEST(Planar, RefusesWhatHasThreeDimensions) {
 }
 
 TEST(EffectCatalog, SaysWhatEachEffectIsInTheLiteralModel) {
-  for (const EffectInfo& info : effectCatalog()) {
-    const bool absent = info.name == "core_radius" || info.name == "adhesion";
-    EXPECT_EQ(info.literal.empty(), absent) << info.name;
-  }
+  for (const EffectInfo& info : effectCatalog()) { EXPECT_EQ(info.literal.empty(), info.name == "adhesion") << info.name; }
 }
 
 }  // namespace

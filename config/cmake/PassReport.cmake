@@ -1,0 +1,25 @@
+# bleedsim_report_passes(TARGET): after the target is linked, prints for each of its pass tables the instantiations, seconds and
+# memory of the compilation, and bytes of code, and fails beyond the bounds of pass_report.cmake. What this machine cannot measure is
+# left out.
+function(bleedsim_report_passes target)
+  set(source "${PROJECT_SOURCE_DIR}/config/cmake/measure_compile.cpp")
+  set(launcher "${PROJECT_BINARY_DIR}/measure_compile")
+  if(NOT EXISTS "${launcher}" OR "${source}" IS_NEWER_THAN "${launcher}")
+    try_compile(BLEEDSIM_MEASURES_COMPILATIONS SOURCES "${source}" COPY_FILE "${launcher}" COPY_FILE_ERROR ignored)
+  endif()
+  if(EXISTS "${launcher}")
+    set(command "${launcher}" "/passes/" ${CMAKE_CXX_COMPILER_LAUNCHER})
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER "${command}")
+  endif()
+  find_program(BLEEDSIM_SIZE NAMES size llvm-size)
+  mark_as_advanced(BLEEDSIM_SIZE)
+  set(bounded ON)
+  if(BLEEDSIM_SANITIZE OR NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+    set(bounded OFF) # sanitizers and debug builds blow code up
+  endif()
+  add_custom_command(
+    TARGET ${target} POST_BUILD
+    COMMAND "${CMAKE_COMMAND}" "-DSIZE=${BLEEDSIM_SIZE}" "-DNM=${CMAKE_NM}" -DBOUNDED=${bounded}
+            "-DOBJECTS=$<JOIN:$<TARGET_OBJECTS:${target}>,$<COMMA>>" -P "${PROJECT_SOURCE_DIR}/config/cmake/pass_report.cmake"
+    VERBATIM)
+endfunction()
