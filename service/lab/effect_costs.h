@@ -1,10 +1,10 @@
 // What each effect costs: time per particle and step, and memory per particle, one effect on at a time and one off at a time.
 //
 // All variants are measured on the same body of blood, a pool in an open box at the scene's spacing, support radius, kernel and
-// fluid, in turns, so that a busy machine slows all of them alike; a figure is the median over the turns. The particles are held
-// by steps of 1 ns, so that all variants have the same neighbours: a pool without viscosity would go on boiling and cost more.
-// What an effect costs by shorter steps is told apart (dt); an implicit solve, whose work grows with the step, is nearly free
-// here.
+// fluid, in turns, so that a busy machine slows all of them alike; a figure is the median over the turns. Every variant takes
+// steps as long as its own stability allows, lists renewed and implicit systems solved as in a session; dt tells what an effect
+// costs by shorter steps. The pool settles by micrometres meanwhile, so the variants keep nearly the same neighbours; a pool
+// without any viscosity boils a little and pays for it in renewed lists.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct VariantCost {
   double microseconds = 0.0;  ///< per particle and step
   double bytes = 0.0;         ///< per particle, neighbour lists apart
   double list_bytes = 0.0;    ///< per particle
-  double dt = 0.0;            ///< of a step that is not held, s: an effect may ask for shorter ones
+  double dt = 0.0;            ///< of the last step before the measured ones, s: an effect may ask for shorter ones
 };
 
 struct EffectCost {
