@@ -226,7 +226,7 @@ std::span<const EffectInfo> effectCatalog() {
 
 bool effectEnabled(const WorldDescription& description, std::string_view name) {
   const auto row = std::find_if(kEffects.begin(), kEffects.end(), [name](const EffectRow& e) { return e.info.name == name; });
-  return row != kEffects.end() && row->enabled(description.effects);
+  return row != kEffects.end() && row->slot.present(description.effects);
 }
 
 }  // namespace bleedsim::sph

@@ -78,7 +78,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     opening_ = 1.0;
     literal_.emplace(description, lattice, speed_of_sound_, viscosityVaries(description), target);
   } else {
-    if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, target);
+    if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, tables.sweeps.shear_rate);
     if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
     if (effects.platelets) clotting_.emplace(*effects.platelets, description.spacing, description.rest_density, walls_.field());
   }
@@ -127,8 +127,7 @@ Status WorldCore<Real>::populate() {
   chooseShares();
   for (std::uint32_t i = 0; i < count_; ++i) grid_.cells()[i] = 0;
   // Implicit viscosity is no part of the accelerations, and these are the first ones.
-  solving_viscosity_ = implicit_viscosity_.has_value() && (description_.effects.viscosity->solve == ViscositySolve::implicit ||
-                                                           limits_.viscous < 0.4 * limits_.spacing / limits_.speed_of_sound);
+  solving_viscosity_ = mustSolveViscosity(acousticLimit(limits_.spacing, limits_.speed_of_sound));
   findNeighbors(boundsOf());
   computeAccelerations();
   finishStep(0.0);
@@ -310,14 +309,18 @@ void WorldCore<Real>::chooseTimeStep(double before) {
   TimeStepLimits inviscid = limits_;
   inviscid.viscous = std::numeric_limits<double>::infinity();
   const double acceleration = std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2));
-  if (implicit_viscosity_) {
-    solving_viscosity_ =
-        description_.effects.viscosity->solve == ViscositySolve::implicit ||
-        limits_.viscous < (solving_viscosity_ ? kImplicitBand : 1.0) *
-                              stableTimeStep(inviscid, max_speed_, acceleration, std::numeric_limits<double>::infinity());
-    if (!solving_viscosity_) viscosity_iterations_ = 0;
-  }
+  solving_viscosity_ =
+      mustSolveViscosity(stableTimeStep(inviscid, max_speed_, acceleration, std::numeric_limits<double>::infinity()));
+  if (!solving_viscosity_) viscosity_iterations_ = 0;
   next_dt_ = stableTimeStep(solving_viscosity_ ? inviscid : limits_, max_speed_, acceleration, before);
+}
+
+/// Whether viscosity is solved implicitly where the step's other limits allow `other_limit`, s.
+template <class Real>
+bool WorldCore<Real>::mustSolveViscosity(double other_limit) const {
+  if (!implicit_viscosity_) return false;
+  if (description_.effects.viscosity->solve == ViscositySolve::implicit) return true;
+  return limits_.viscous < (solving_viscosity_ ? kImplicitBand : 1.0) * other_limit;
 }
 
 template <class Real>

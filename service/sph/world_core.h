@@ -73,6 +73,7 @@ class WorldCore final : public World {
   void finishStep(double dt);
   void solveViscosity(double dt);
   void chooseTimeStep(double before);
+  bool mustSolveViscosity(double other_limit) const;
 
   const Real* shearRates() const { return shear_rate_ ? shear_rate_->data() : nullptr; }
   void makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet);

@@ -99,7 +99,7 @@ inline bool mayNeedImplicitViscosity(const WorldDescription& description, double
   if (description.kernel != KernelType::wendland_c2) return false;  // its sweeps are compiled for one kernel
   if (viscosity->solve == ViscositySolve::implicit) return true;
   const double viscous = diffusionLimit(description, largestPossibleViscosity(description) / description.rest_density);
-  return viscous < 0.4 * description.spacing / speed_of_sound;
+  return viscous < acousticLimit(description.spacing, speed_of_sound);
 }
 
 /// TimeStepLimits::contact: 0.1 where a touching pair is as stiff as with the default settings, shorter as the frequency of a

@@ -5,20 +5,12 @@
 
 #include "service/sph/rest_lattice.h"
 #include "service/sph/smoothing_kernel.h"
+#include "tests/support/nearest_offset.h"
 
 namespace bleedsim::test {
 namespace {
 
 using sph::Vec3;
-
-Vec3 nearestOffset(const sph::Domain& domain, Vec3 offset) {
-  for (Eigen::Index a = 0; a < 3; ++a) {
-    if (!domain.periodic[static_cast<std::size_t>(a)]) continue;
-    const double side = domain.upper[a] - domain.lower[a];
-    offset[a] -= side * std::round(offset[a] / side);
-  }
-  return offset;
-}
 
 /// Of a pair, on the first: `offset` from the second to the first, `velocity` of the first against the second.
 Vec3 repulsionOf(const sph::WorldDescription& d, double c0, const Vec3& offset, const Vec3& velocity) {
