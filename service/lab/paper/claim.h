@@ -16,18 +16,14 @@
 #include <string_view>
 #include <vector>
 
+#include "service/lab/measured.h"
+
 namespace bleedsim::lab {
 
 inline constexpr double kLeastEffect = 0.05;  ///< smaller differences do not show in a picture
 
 enum class Verdict { holds, does_not, depends };
 std::string_view verdictName(Verdict verdict);
-
-/// A figure with the scatter of its samples.
-struct Measured {
-  double value = 0.0;
-  double scatter = 0.0;
-};
 
 /// How the second figure stands to the first, as the paper has it. `equal` is met within kEqualWithin of the first or within the
 /// scatter, and never depends.
