@@ -22,7 +22,7 @@ struct PaperOptions {
   ModelChoice model = ModelChoice::both;
   int threads = 1;
   sph::SimdTarget simd = sph::SimdTarget::automatic;
-  double seconds = 8.0;  ///< table2: wall time of all measurements, in which the turn that is on is ended, s
+  double seconds = 8.0;  ///< table2: wall time that the turns of measurements are to take, s
 
   sph::WorldOptions world() const { return {.threads = threads, .simd = simd}; }
 };
