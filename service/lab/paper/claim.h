@@ -3,7 +3,7 @@
 // One figure is measured with and without the thing that the sentence speaks of, in each model. A difference counts when it is
 // above kLeastEffect of the figure and above twice the scatter of both measurements:
 //   holds     it counts and has the sign that the paper says
-//   does not  it counts and has the other sign, or both figures are equal to the bit, so that the thing has no effect at all
+//   does not  it counts and has the other sign, or figures and scatters are equal up to rounding: the thing has no effect at all
 //   depends   it does not count
 // Over several models: holds where all hold, does not where none does and all count, else depends. A model without figures has no
 // voice.
