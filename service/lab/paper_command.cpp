@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
+#include <optional>
 
 #include "service/lab/app.h"
 #include "service/lab/paper/claims.h"
@@ -11,6 +12,7 @@
 #include "service/lab/paper/growth.h"
 #include "service/lab/paper/intruders.h"
 #include "service/lab/paper/paper_files.h"
+#include "service/lab/paper/paper_scene.h"
 #include "service/lab/paper/table2.h"
 #include "service/lab/progress.h"
 
@@ -19,6 +21,8 @@ namespace {
 
 struct Arguments {
   PaperOptions options;
+  std::optional<std::uint32_t> particles;
+  std::optional<double> duration;
   std::string simd = "auto";
   std::string model = "both";
   bool json = false;
@@ -50,11 +54,37 @@ constexpr std::array kExperiments{
     Experiment{"claims", "The other claims of the paper that can be tested", runClaims, false, true, false},
 };
 
+/// The options with what the command line leaves to the experiment's scene.
+Result<PaperOptions> optionsOf(const Experiment& experiment, const Arguments& arguments) {
+  PaperOptions options = arguments.options;
+  options.particles = arguments.particles.value_or(0);
+  options.duration = arguments.duration.value_or(0.0);
+  const bool particles = experiment.grows && !arguments.particles;
+  const bool duration = experiment.lasts && !arguments.duration;
+  if (!particles && !duration) return options;
+  const bool literal = experiment.models && options.model == ModelChoice::literal;
+  const auto scene = loadPaperScene(options, std::string{experiment.name} + (literal ? "_literal" : ""));
+  if (!scene) return scene.status();
+  if (particles) {
+    const auto count = particlesOf(*scene);
+    if (!count) return count.status();
+    options.particles = *count;
+  }
+  if (duration) {
+    const auto horizon = horizonOf(*scene);
+    if (!horizon) return horizon.status();
+    options.duration = *horizon;
+  }
+  return options;
+}
+
 Status run(const Experiment& experiment, const Arguments& arguments, nlohmann::json& results) {
+  const auto options = optionsOf(experiment, arguments);
+  if (!options) return options.status();
   Progress progress{experiment.name};
-  auto report = experiment.run(arguments.options, [&](double part) { progress.report(part); });
+  auto report = experiment.run(*options, [&](double part) { progress.report(part); });
   if (!report) return report.status();
-  if (Status status = writeReport(arguments.options, experiment.name, *report); !status.ok()) return status;
+  if (Status status = writeReport(*options, experiment.name, *report); !status.ok()) return status;
   if (!arguments.json) fmt::print("{}", report->text);
   results[experiment.name] = std::move(report->json);
   return {};
@@ -93,8 +123,7 @@ void addOptions(CLI::App& command, Arguments& arguments, const Experiment& has) 
   command.add_option("--simd", arguments.simd, "auto, scalar, avx2 or avx512")->capture_default_str();
   command.add_flag("--json", arguments.json, "Print JSON");
   if (has.grows) {
-    command.add_option("--particles", options.particles, "Particles at the end")
-        ->capture_default_str()
+    command.add_option("--particles", arguments.particles, "Particles at the end; default those of the scene's horizon_s")
         ->check(CLI::Range(100U, 1000000U));
   }
   if (has.models) {
@@ -103,8 +132,7 @@ void addOptions(CLI::App& command, Arguments& arguments, const Experiment& has) 
         ->check(CLI::IsMember({"sound", "literal", "both"}));
   }
   if (has.lasts) {
-    command.add_option("--duration", options.duration, "Simulated time of the block at rest, s")
-        ->capture_default_str()
+    command.add_option("--duration", arguments.duration, "Simulated time of the block at rest, s; default the scene's horizon_s")
         ->check(CLI::Range(1e-3, 1e4));
   }
   if (has.counts) {

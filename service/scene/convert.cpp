@@ -123,6 +123,7 @@ SceneDescription convert(const Scene& scene) {
           .world = convertWorld(scene),
           .frame_rate = scene.output().frame_rate_hz(),
           .attributes = convertAttributes(scene.output()),
+          .horizon = scene.has_horizon_s() ? std::optional{scene.horizon_s()} : std::nullopt,
           .instrument_expiry = scene.commands().instrument_expiry_s(),
           .normalized_text = {},
           .effects = enabledEffects(scene.effects()),

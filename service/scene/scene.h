@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,7 @@ struct SceneDescription {
   sph::WorldDescription world;
   double frame_rate = 60.0;            ///< frames per simulated second, 1/s
   std::uint32_t attributes = 0;        ///< sph::FrameAttribute bits of a frame beside positions and ids
+  std::optional<double> horizon;       ///< simulated time that the scene is meant for, s
   double instrument_expiry = 0.1;      ///< wall time after which a silent instrument ends, s
   std::string normalized_text;         ///< the scene with every default filled in; parses to this description
   std::vector<std::string> effects;    ///< names of the effects that act, in the order of idl/scene.proto

@@ -9,6 +9,8 @@ namespace {
 
 bool counts(const Evidence& evidence) { return evidence.with.has_value() && evidence.without.has_value(); }
 
+bool same(double one, double other) { return std::abs(one - other) <= 1e-9 * std::max(std::abs(one), std::abs(other)); }
+
 nlohmann::json toJson(const std::optional<Measured>& measured) {
   if (!measured) return nullptr;
   return {{"value", measured->value}, {"scatter", measured->scatter}};
@@ -47,7 +49,7 @@ Verdict judge(const Measured& with, const Measured& without, Direction claimed) 
     const bool met = std::abs(difference) <= std::max(kEqualWithin * std::abs(with.value), scatter);
     return met ? Verdict::holds : Verdict::does_not;
   }
-  if (difference == 0.0 && with.scatter == without.scatter) return Verdict::does_not;
+  if (same(with.value, without.value) && same(with.scatter, without.scatter)) return Verdict::does_not;
   const double threshold = std::max(kLeastEffect * std::abs(with.value), scatter);
   if (!(std::abs(difference) > threshold)) return Verdict::depends;
   return (difference > 0.0) == (claimed == Direction::larger) ? Verdict::holds : Verdict::does_not;

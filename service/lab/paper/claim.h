@@ -3,7 +3,7 @@
 // One figure is measured with and without the thing that the sentence speaks of, in each model. A difference counts when it is
 // above kLeastEffect of the figure and above twice the scatter of both measurements:
 //   holds     it counts and has the sign that the paper says
-//   does not  it counts and has the other sign, or both figures are equal to the bit, so that the thing has no effect at all
+//   does not  it counts and has the other sign, or figures and scatters are equal up to rounding: the thing has no effect at all
 //   depends   it does not count
 // Over several models: holds where all hold, does not where none does and all count, else depends. A model without figures has no
 // voice.
@@ -16,18 +16,14 @@
 #include <string_view>
 #include <vector>
 
+#include "service/lab/measured.h"
+
 namespace bleedsim::lab {
 
 inline constexpr double kLeastEffect = 0.05;  ///< smaller differences do not show in a picture
 
 enum class Verdict { holds, does_not, depends };
 std::string_view verdictName(Verdict verdict);
-
-/// A figure with the scatter of its samples.
-struct Measured {
-  double value = 0.0;
-  double scatter = 0.0;
-};
 
 /// How the second figure stands to the first, as the paper has it. `equal` is met within kEqualWithin of the first or within the
 /// scatter, and never depends.

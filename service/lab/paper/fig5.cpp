@@ -43,6 +43,7 @@ Fig5Run runOne(const sph::WorldDescription& scene, const PaperOptions& options, 
     return run;
   }
   if (Status status = measure(*gush, options.particles, run); !status.ok()) run.failure = status.message();
+  run.platelet_change = gush->plateletChange();
   const GushBody body = gush->body();
   run.time = gush->world().time();
   run.emitted = gush->emitted();
@@ -124,6 +125,7 @@ nlohmann::json toJson(const Fig5Run& run) {
                       {"emitted", run.emitted},
                       {"left_domain", run.lost},
                       {"time_s", run.time}};
+  if (run.platelet_change) json["platelet_change"] = *run.platelet_change;
   if (!run.failure.empty()) {
     json["failure"] = run.failure;
     return json;

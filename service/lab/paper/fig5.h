@@ -20,6 +20,9 @@ namespace bleedsim::lab {
 
 inline constexpr int kSamples = 5;
 
+/// Changes mu = b exp(-a P) by less than 1 % for every a that gives blood its viscosity.
+inline constexpr double kUniformPlatelets = 1e-3;
+
 /// (a) to (f): which of the four improvements are left.
 struct Fig5Variant {
   char letter;
@@ -46,6 +49,9 @@ struct Fig5Run {
   std::uint32_t lost = 0;  ///< left the domain
   double time = 0.0;       ///< simulated, s
   std::array<Measured, static_cast<std::size_t>(GushFigure::count)> figures{};
+  /// How far a particle's P came from that of fresh blood, at most; nothing without platelets. Below kUniformPlatelets the
+  /// viscosity of (26) is one constant, and the run differs from one without platelets by rounding alone.
+  std::optional<double> platelet_change;
   HeightProfile profile;
   std::vector<float> positions;  ///< at the end
 

@@ -43,6 +43,11 @@ std::optional<Measured> figureOf(const Fig5Run& run, GushFigure figure) {
   return scaled(*measured, infoOf(figure).scale);
 }
 
+/// Whether the run's platelets are there and do nothing.
+bool hasIdlePlatelets(const Fig5Run& run) {
+  return run.failure.empty() && run.platelet_change && *run.platelet_change < kUniformPlatelets;
+}
+
 /// (f) all on: smooth. Its roughness beside that of the smoothest other run.
 Claim judgeSmoothest(const std::vector<Fig5Run>& runs, const std::vector<std::string>& models) {
   Claim claim{.sentence = "(f) all improvements: the smoothest surface of all",
@@ -53,19 +58,21 @@ Claim judgeSmoothest(const std::vector<Fig5Run>& runs, const std::vector<std::st
               .evidence = {},
               .verdict = Verdict::depends};
   for (const std::string& model : models) {
+    const Fig5Run* all = findRun(runs, model, 'f');
+    const bool same_as_c = all != nullptr && hasIdlePlatelets(*all);
     std::optional<Measured> best;
     char letter = ' ';
     for (const Fig5Run& run : runs) {
-      if (run.model != model || run.letter == 'f') continue;
+      if (run.model != model || run.letter == 'f' || (run.letter == 'c' && same_as_c)) continue;
       const auto other = figureOf(run, GushFigure::roughness);
       if (!other || (best && best->value <= other->value)) continue;
       best = other;
       letter = run.letter;
     }
-    const Fig5Run* all = findRun(runs, model, 'f');
     Evidence evidence =
         compare(model, all != nullptr ? figureOf(*all, GushFigure::roughness) : std::nullopt, best, Direction::larger);
     evidence.note = best ? std::string{"the smoothest other run is ("} + letter + ")" : "no other run has figures";
+    if (same_as_c) evidence.note += "; (c) is (f) but for chance, P being uniform";
     claim.evidence.push_back(std::move(evidence));
   }
   conclude(claim);
@@ -94,6 +101,11 @@ std::vector<Claim> judgeFig5(const std::vector<Fig5Run>& runs) {
       if (with == nullptr || without == nullptr) continue;
       Evidence evidence = compare(model, figureOf(*with, sentence.figure), figureOf(*without, sentence.figure), sentence.claimed);
       evidence.note = !with->failure.empty() ? with->failure : without->failure;
+      if (sentence.letter == 'c' && hasIdlePlatelets(*with)) {
+        evidence.verdict = Verdict::does_not;
+        evidence.note =
+            "no effect: P is uniform, so mu is one constant, blood's, with platelets and without; what differs is chance";
+      }
       claim.evidence.push_back(std::move(evidence));
     }
     conclude(claim);

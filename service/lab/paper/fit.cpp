@@ -38,7 +38,9 @@ LineFit fitLine(std::span<const double> x, std::span<const double> y) {
   LineFit fit;
   fit.slope = xy / xx;
   fit.intercept = mean_y - fit.slope * mean_x;
-  fit.r2 = yy > 0.0 ? 1.0 - squaredResiduals(fit, x, y) / yy : 1.0;
+  const double residuals = squaredResiduals(fit, x, y);
+  fit.r2 = yy > 0.0 ? 1.0 - residuals / yy : 1.0;
+  if (x.size() > 2) fit.slope_error = std::sqrt(residuals / (static_cast<double>(x.size() - 2) * xx));
   return fit;
 }
 
@@ -52,7 +54,7 @@ PowerFit fitPower(std::span<const double> x, std::span<const double> y) {
   }
   const LineFit line = fitLine(log_x, log_y);
   if (line.r2 == 0.0 && line.slope == 0.0 && line.intercept == 0.0) return {};
-  return {.exponent = line.slope, .factor = std::exp(line.intercept), .r2 = line.r2};
+  return {.exponent = line.slope, .factor = std::exp(line.intercept), .r2 = line.r2, .exponent_error = line.slope_error};
 }
 
 double scatterAboutTrend(std::span<const double> x, std::span<const double> y) {

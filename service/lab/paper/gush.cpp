@@ -21,7 +21,7 @@ Result<Gush> Gush::create(sph::WorldDescription scene, const sph::WorldOptions& 
 }
 
 Gush::Gush(std::unique_ptr<sph::World> world, std::uint32_t capacity) : world_{std::move(world)} {
-  frame_.reserve(capacity, sph::kFrameVelocity);
+  frame_.reserve(capacity, sph::kFrameVelocity | sph::kFramePlatelet);
 }
 
 std::uint32_t Gush::emitted() const {
@@ -50,6 +50,16 @@ GushBody Gush::body() {
   world_->copyFrame(frame_, sph::kFrameVelocity);
   const std::size_t numbers = 3 * std::size_t{frame_.count};
   return {{frame_.position.data(), numbers}, {frame_.velocity.data(), numbers}};
+}
+
+std::optional<double> Gush::plateletChange() {
+  const std::optional<sph::PlateletSettings>& platelets = world_->description().effects.platelets;
+  if (!platelets) return std::nullopt;
+  world_->copyFrame(frame_, sph::kFramePlatelet);
+  double change = 0.0;
+  for (std::size_t i = 0; i < frame_.count; ++i)
+    change = std::max(change, std::abs(static_cast<double>(frame_.platelet[i]) - platelets->fresh));
+  return change;
 }
 
 }  // namespace bleedsim::lab

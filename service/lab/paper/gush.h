@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "service/sph/world.h"
@@ -29,6 +30,9 @@ class Gush {
 
   /// Valid until the next call.
   GushBody body();
+
+  /// How far a particle's P is from that of fresh blood, at most; nothing without platelets.
+  std::optional<double> plateletChange();
 
   std::uint32_t emitted() const;
   std::uint32_t present() const { return world_->particleCount(); }  ///< those that left the domain are gone

@@ -3,32 +3,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <utility>
+#include <vector>
 
 #include "service/lab/paper/claims.h"
+#include "service/lab/paper/paper_scene.h"
 #include "service/sph/seeding.h"
 
 namespace bleedsim::lab {
 namespace {
 
-constexpr int kSide = 6;  // particles along a periodic cube
-constexpr std::size_t kCount = kSide * kSide * kSide;
-constexpr double kSupport = 2.0;
-constexpr double kJitter = 0.2;
-constexpr int kSeeds = 5;
-
 using Vec3 = sph::Vec3;
-using Cloud = std::array<Vec3, kCount>;
+using Cloud = std::vector<Vec3>;
 
-Cloud jitteredCube(sph::JitterSource& jitter) {
+// Of the settling, which no scene can say. Pressure acts everywhere in a cube that is a quarter denser than at rest; the loss
+// ends every motion within the run.
+constexpr double kRest = 0.8;         // rest density over the lattice's
+constexpr double kKept = 0.95;        // of the velocity, a step
+constexpr double kNear = 0.4;         // support radii between the two particles of the viscous pair
+constexpr double kPercentile = 0.01;  // of the nearest distances
+
+Cloud jitteredCube(const KernelCube& cube, sph::JitterSource& jitter) {
   Cloud cloud;
-  std::size_t at = 0;
-  for (int x = 0; x < kSide; ++x) {
-    for (int y = 0; y < kSide; ++y) {
-      for (int z = 0; z < kSide; ++z) {
-        Vec3& position = cloud[at++];
-        position = Vec3{double(x), double(y), double(z)};
-        for (Eigen::Index a = 0; a < 3; ++a) position[a] += kJitter * jitter.next();
+  for (int x = 0; x < cube.side; ++x) {
+    for (int y = 0; y < cube.side; ++y) {
+      for (int z = 0; z < cube.side; ++z) {
+        Vec3& position = cloud.emplace_back(double(x), double(y), double(z));
+        for (Eigen::Index a = 0; a < 3; ++a) position[a] += cube.jitter * jitter.next();
       }
     }
   }
@@ -37,80 +39,64 @@ Cloud jitteredCube(sph::JitterSource& jitter) {
 
 /// Calls pair(i, j, x_i - x_j, r) for every pair nearer than `reach`, across the sides too.
 template <class Consume>
-void forPairs(const Cloud& cloud, double reach, Consume&& pair) {
-  for (std::size_t i = 0; i < kCount; ++i) {
-    for (std::size_t j = i + 1; j < kCount; ++j) {
+void forPairs(const Cloud& cloud, int side, double reach, Consume&& pair) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    for (std::size_t j = i + 1; j < cloud.size(); ++j) {
       Vec3 apart = cloud[i] - cloud[j];
-      for (Eigen::Index a = 0; a < 3; ++a) apart[a] -= kSide * std::round(apart[a] / kSide);
+      for (Eigen::Index a = 0; a < 3; ++a) apart[a] -= side * std::round(apart[a] / side);
       const double r = apart.norm();
       if (r < reach) pair(i, j, apart, r);
     }
   }
 }
 
-/// Mean of the values with their standard error.
-Measured meanOf(const std::array<double, kSeeds>& values) {
-  double sum = 0.0;
-  double squares = 0.0;
-  for (const double value : values) sum += value;
-  const double mean = sum / kSeeds;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {mean, std::sqrt(squares / (kSeeds * (kSeeds - 1)))};
-}
-
 /// First percentile of the nearest distances after a damped fall into rest under pressure, by (17) with the gradient of `kernel`,
-/// density by poly6 (20). The cube is a quarter denser than rest, so that pressure acts everywhere.
-double settledDistance(const sph::SmoothingKernel& kernel, std::uint64_t seed) {
-  constexpr double kRest = 0.8;
-  constexpr double kDt = 0.1;
-  constexpr double kKept = 0.95;  // of the velocity, a step
-  constexpr int kSteps = 400;
+/// density by poly6 (20).
+double settledDistance(const KernelCube& cube, sph::KernelType type, std::uint64_t seed) {
+  const sph::SmoothingKernel kernel{type, cube.support, 0.0};
   sph::JitterSource jitter{seed};
-  Cloud cloud = jitteredCube(jitter);
-  Cloud velocity;
-  velocity.fill(Vec3::Zero());
-  const sph::SmoothingKernel poly6{sph::KernelType::poly6, kSupport, 0.0};
-  for (int step = 0; step < kSteps; ++step) {
-    std::array<double, kCount> density;
-    density.fill(poly6.value(0.0));
-    forPairs(cloud, kSupport, [&](std::size_t i, std::size_t j, const Vec3&, double r) {
+  Cloud cloud = jitteredCube(cube, jitter);
+  Cloud velocity(cloud.size(), Vec3::Zero());
+  const sph::SmoothingKernel poly6{sph::KernelType::poly6, cube.support, 0.0};
+  for (int step = 0; step < cube.steps; ++step) {
+    std::vector<double> density(cloud.size(), poly6.value(0.0));
+    forPairs(cloud, cube.side, cube.support, [&](std::size_t i, std::size_t j, const Vec3&, double r) {
       density[i] += poly6.value(r);
       density[j] += poly6.value(r);
     });
-    Cloud acceleration;
-    acceleration.fill(Vec3::Zero());
-    forPairs(cloud, kSupport, [&](std::size_t i, std::size_t j, const Vec3& apart, double r) {
+    Cloud acceleration(cloud.size(), Vec3::Zero());
+    forPairs(cloud, cube.side, cube.support, [&](std::size_t i, std::size_t j, const Vec3& apart, double r) {
       const double pressures = density[i] + density[j] - 2.0 * kRest;
       const Vec3 a = -pressures / (2.0 * density[i] * density[j]) * kernel.slope(r) / std::max(r, 1e-6) * apart;
       acceleration[i] += a;
       acceleration[j] -= a;
     });
-    for (std::size_t i = 0; i < kCount; ++i) {
-      velocity[i] = kKept * (velocity[i] + kDt * acceleration[i]);
-      cloud[i] += kDt * velocity[i];
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      velocity[i] = kKept * (velocity[i] + cube.dt * acceleration[i]);
+      cloud[i] += cube.dt * velocity[i];
     }
   }
-  std::array<double, kCount> nearest;
-  nearest.fill(kSupport);
-  forPairs(cloud, kSupport, [&](std::size_t i, std::size_t j, const Vec3&, double r) {
+  std::vector<double> nearest(cloud.size(), cube.support);
+  forPairs(cloud, cube.side, cube.support, [&](std::size_t i, std::size_t j, const Vec3&, double r) {
     nearest[i] = std::min(nearest[i], r);
     nearest[j] = std::min(nearest[j], r);
   });
   std::sort(nearest.begin(), nearest.end());
-  return nearest[kCount / 100];
+  return nearest[static_cast<std::size_t>(kPercentile * static_cast<double>(nearest.size()))];
 }
 
 /// (sum v_i a_i)/(sum v_i^2) of random velocities, a_i = sum_j (v_j - v_i) lap W: above 0 the particles gain speed. In units of
 /// what the viscosity kernel (33) takes away on the same particles.
-double viscousGrowth(const sph::SmoothingKernel& kernel, std::uint64_t seed) {
+double viscousGrowth(const KernelCube& cube, sph::KernelType type, std::uint64_t seed) {
+  const sph::SmoothingKernel kernel{type, cube.support, 0.0};
   sph::JitterSource jitter{seed};
-  const Cloud cloud = jitteredCube(jitter);
-  Cloud velocity;
+  const Cloud cloud = jitteredCube(cube, jitter);
+  Cloud velocity(cloud.size());
   for (Vec3& v : velocity) v = {jitter.next(), jitter.next(), jitter.next()};
-  const sph::SmoothingKernel viscosity{sph::KernelType::viscosity, kSupport, 0.0};
+  const sph::SmoothingKernel viscosity{sph::KernelType::viscosity, cube.support, 0.0};
   double power = 0.0;
   double loss = 0.0;
-  forPairs(cloud, kSupport, [&](std::size_t i, std::size_t j, const Vec3&, double r) {
+  forPairs(cloud, cube.side, cube.support, [&](std::size_t i, std::size_t j, const Vec3&, double r) {
     const double relative2 = (velocity[i] - velocity[j]).squaredNorm();
     power -= kernel.laplacian(r) * relative2;
     loss += viscosity.laplacian(r) * relative2;
@@ -135,23 +121,50 @@ double negativeUpTo(sph::KernelType type) {
   return last;
 }
 
+/// Of one figure over the seeds.
+template <class Figure>
+Measured overSeeds(const KernelCube& cube, const Figure& figure) {
+  std::vector<double> values;
+  for (std::uint64_t k = 0; k < kKernelSeeds; ++k) values.push_back(figure(cube.seed + k));
+  return meanOf(values);
+}
+
 }  // namespace
 
-Claim clusterClaim() {
-  std::array<double, kSeeds> spiky{};
-  std::array<double, kSeeds> poly6{};
-  for (int seed = 0; seed < kSeeds; ++seed) {
-    const auto at = static_cast<std::size_t>(seed);
-    spiky[at] = settledDistance({sph::KernelType::spiky, kSupport, 0.0}, at + 1);
-    poly6[at] = settledDistance({sph::KernelType::poly6, kSupport, 0.0}, at + 1);
+Result<KernelCube> kernelCubeOf(const scene::SceneDescription& scene) {
+  const sph::WorldDescription& world = scene.world;
+  const auto seconds = horizonOf(scene);
+  if (!seconds) return seconds.status();
+  const bool periodic = world.domain.periodic[0] && world.domain.periodic[1] && world.domain.periodic[2];
+  const bool one = world.fluid_blocks.size() == 1;
+  const auto counts = one ? sph::blockLattice(world.fluid_blocks.front(), world.spacing) : std::array<std::uint64_t, 3>{0, 1, 2};
+  if (!periodic || counts[0] != counts[1] || counts[1] != counts[2] || !std::isfinite(world.max_dt)) {
+    return Status{StatusCode::invalid_argument,
+                  "scene '" + scene.name + "' needs one cubic fluid block, periodic sides on all axes and max_dt_s"};
   }
+  const double time = world.spacing / sph::speedOfSound(world);
+  return KernelCube{.side = static_cast<int>(counts[0]),
+                    .support = world.support_ratio,
+                    .jitter = world.fluid_blocks.front().jitter,
+                    .dt = world.max_dt / time,
+                    .steps = static_cast<int>(std::lround(*seconds / world.max_dt)),
+                    .seed = world.seed};
+}
+
+Claim clusterClaim(const KernelCube& cube) {
+  const Measured spiky = overSeeds(cube, [&](std::uint64_t seed) { return settledDistance(cube, sph::KernelType::spiky, seed); });
+  const Measured poly6 = overSeeds(cube, [&](std::uint64_t seed) { return settledDistance(cube, sph::KernelType::poly6, seed); });
   Claim claim{.sentence = "poly6 for pressure clusters particles",
               .figure = "first percentile of nearest distances, spacings",
               .with = "spiky",
               .without = "poly6",
               .claimed = Direction::smaller,
-              .evidence = {compare("cube", meanOf(spiky), meanOf(poly6), Direction::smaller)},
+              .evidence = {compare("cube", spiky, poly6, Direction::smaller)},
               .verdict = Verdict::depends};
+  claim.evidence.front().note = fmt::format(
+      "{0} x {0} x {0} periodic, {1:g} of the lattice's density at rest, jitter {2:g} dx, h = {3:g} dx, {4} steps of "
+      "{5:.2g} dx/c0 that keep {6:g} of the velocity, {7} seeds",
+      cube.side, kRest, cube.jitter, cube.support, cube.steps, cube.dt, kKept, kKernelSeeds);
   conclude(claim);
   return claim;
 }
@@ -174,7 +187,7 @@ Claim laplacianClaim() {
   return claim;
 }
 
-Claim viscousGrowthClaim() {
+Claim viscousGrowthClaim(const KernelCube& cube) {
   Claim claim{.sentence = "viscosity from the Laplacians of poly6 or spiky speeds particles up",
               .figure = "growth of kinetic energy, the viscosity kernel's loss being 1",
               .with = "none",
@@ -182,16 +195,14 @@ Claim viscousGrowthClaim() {
               .claimed = Direction::larger,
               .evidence = {},
               .verdict = Verdict::depends};
-  constexpr double kNear = 0.4;  // support radii
   const auto add = [&](const std::string& name, sph::KernelType type) {
     const double pair = -sph::SmoothingKernel{type, 1.0, 0.0}.laplacian(kNear) /
                         sph::SmoothingKernel{sph::KernelType::viscosity, 1.0, 0.0}.laplacian(kNear);
     claim.evidence.push_back(compare(name + " pair", Measured{0.0, 0.0}, Measured{pair, 0.0}, Direction::larger));
-    claim.evidence.back().note = "two particles 0.4 h apart";
-    std::array<double, kSeeds> growth{};
-    for (std::size_t seed = 0; seed < growth.size(); ++seed) growth[seed] = viscousGrowth({type, kSupport, 0.0}, seed + 1);
-    claim.evidence.push_back(compare(name + " body", Measured{0.0, 0.0}, meanOf(growth), Direction::larger));
-    claim.evidence.back().note = "random velocities in bulk, h = 2 dx";
+    claim.evidence.back().note = fmt::format("two particles {:g} h apart", kNear);
+    const Measured growth = overSeeds(cube, [&](std::uint64_t seed) { return viscousGrowth(cube, type, seed); });
+    claim.evidence.push_back(compare(name + " body", Measured{0.0, 0.0}, growth, Direction::larger));
+    claim.evidence.back().note = fmt::format("random velocities in bulk, h = {:g} dx, {} seeds", cube.support, kKernelSeeds);
   };
   add("poly6", sph::KernelType::poly6);
   add("spiky", sph::KernelType::spiky);

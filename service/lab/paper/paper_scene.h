@@ -13,4 +13,10 @@ namespace bleedsim::lab {
 /// from. not_found with the places that were tried.
 Result<scene::SceneDescription> loadPaperScene(const PaperOptions& options, std::string_view name);
 
+/// The scene's horizon_s, s; invalid_argument if it has none.
+Result<double> horizonOf(const scene::SceneDescription& scene);
+
+/// Particles that the scene's wounds bring within its horizon_s.
+Result<std::uint32_t> particlesOf(const scene::SceneDescription& scene);
+
 }  // namespace bleedsim::lab

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "service/lab/paper/claim.h"
 #include "service/lab/paper/fit.h"
 #include "service/lab/paper/paper_options.h"
 #include "service/status/status.h"
@@ -20,8 +21,10 @@ enum class Search { complete, mesh };
 struct RateRow {
   std::uint32_t particles = 0;
   Search search = Search::mesh;
-  double rate = 0.0;                 ///< steps per second, by the lower quartile of a step's time
-  double dt = 0.0;                   ///< s, of the last step: rate x dt is simulated over wall time
+  double rate = 0.0;         ///< steps per second by the lower quartile of a step's time: what others on the machine leave alone
+  double median_rate = 0.0;  ///< by the median of a step's time: with what others do
+  double scatter = 0.0;      ///< of the rate: median absolute deviation of the steps' rates
+  double dt = 0.0;           ///< s, of the last step: rate x dt is simulated over wall time
   std::optional<double> paper_rate;  ///< frames per second of the paper, for its own counts
   std::uint32_t steps = 0;           ///< measured
 };
@@ -38,11 +41,14 @@ struct RateTable {
   std::string simd;
 };
 
-/// Whether a fit says "inversely proportional": an exponent of -1 +- 0.1 that explains 98 % of the variance.
-bool isInverse(const PowerFit& fit);
+/// Whether a fit says "inversely proportional": an exponent of -1 +- kInverseWithin by twice its standard error, with 98 % of the
+/// variance explained. does_not where the exponent lies outside by as much, depends where that straddles the bound, where the
+/// line explains less or where its error is unknown.
+inline constexpr double kInverseWithin = 0.1;
+Verdict inverseVerdict(const PowerFit& fit);
 
 /// The fluid and effects of the scene, its first block cut to the height that holds each count; all counts and both
-/// searches in turns, until the options' seconds are over.
+/// searches in turns, as many as the options' seconds hold, at least one.
 Result<RateTable> measureRates(const sph::WorldDescription& scene, const PaperOptions& options, const ProgressReport& progress);
 
 Result<PaperReport> runTable2(const PaperOptions& options, const ProgressReport& progress);

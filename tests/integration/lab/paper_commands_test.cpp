@@ -2,7 +2,9 @@
 // there, finite and consistent is.
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -63,11 +65,15 @@ TEST(PaperCommands, Table2HasARowForEachCountAndSearch) {
     EXPECT_TRUE(row["particles"] == 1000 || row["particles"] == 2000);
     EXPECT_TRUE(row["search"] == "mesh" || row["search"] == "complete");
     EXPECT_GT(row["frames_per_s"].get<double>(), 0.0);
+    EXPECT_LE(row["frames_per_s_median"].get<double>(), row["frames_per_s"].get<double>()) << "the fastest quarter is faster";
+    EXPECT_GE(row["frames_per_s_scatter"].get<double>(), 0.0);
     EXPECT_EQ(row["reaches_20_frames_per_s"].get<bool>(), row["frames_per_s"].get<double>() >= 20.0);
     EXPECT_TRUE(row["paper_frames_per_s"].is_null()) << "the paper has other counts";
   }
   ASSERT_EQ(json["fits"].size(), 2u);
   EXPECT_LT(json["fits"][1]["ours"]["exponent"].get<double>(), 0.0);
+  EXPECT_TRUE(json["fits"][1]["ours"]["standard_error"].is_null()) << "of two counts";
+  EXPECT_TRUE(json["fits"][1]["paper"]["standard_error"].is_number());
   EXPECT_TRUE(folder.has("table2.csv"));
   EXPECT_TRUE(folder.has("table2.json"));
   EXPECT_TRUE(folder.has("table2.txt"));
@@ -123,14 +129,28 @@ TEST(PaperCommands, Fig2HasFourRunsInEachModel) {
   const Folder folder{"fig2"};
   const Json json = runJson(paper("fig2", {"--duration", "0.4", "-o", folder.text()}));
   ASSERT_EQ(json["runs"].size(), 8u);
+  std::map<std::string, double> overlap;
   for (const Json& run : json["runs"]) {
     EXPECT_EQ(run["failure"], "");
-    // Intruders at 1 m/s cross 2.5 x 0.12 m in 0.3 s.
-    EXPECT_NEAR(run["time_s"].get<double>(), run["intruders"].get<bool>() ? 0.3 : 0.4, 0.001);
+    EXPECT_EQ(run["seeds"], json["seeds"]);
+    const Json& figures = run["figures"];
+    const bool intruders = run["intruders"].get<bool>();
+    // Intruders at 1 m/s are within the block from 54 to 180 ms; they run for as long again, to 306 ms.
+    EXPECT_NEAR(run["time_s"].get<double>(), intruders ? 0.306 : 0.4, 0.001);
     // Rounding of 0.3 s of steps in float: 1e-6 of the momentum a step, 600 steps.
-    EXPECT_LT(run["momentum_drift"].get<double>(), 1e-3) << run.dump();
-    if (run["intruders"].get<bool>()) { EXPECT_GT(run["intruders_moved_m"].get<double>(), 0.0); }
+    EXPECT_LT(figures["momentum_drift"]["value"].get<double>(), 1e-3) << run.dump();
+    EXPECT_EQ(figures["intruders_moved_m"]["value"].get<double>() > 0.0, intruders);
+    EXPECT_GT(figures["edge_moved_m"]["scatter"].get<double>(), 0.0) << "seeds differ";
+    if (!intruders) continue;
+    EXPECT_GE(figures["overlap_time_s"]["value"].get<double>(), 0.054);
+    EXPECT_LE(figures["overlap_time_s"]["value"].get<double>(), 0.181);
+    overlap[run["model"].get<std::string>() + (run["repulsion"].get<bool>() ? " with" : " without")] =
+        figures["overlap_m2"]["value"].get<double>();
   }
+  // Three discs of 3 mm radius cannot share more than their own area.
+  for (const auto& [name, area] : overlap) EXPECT_LE(area, 3.0 * 28.3e-6 * 1.02) << name;
+  EXPECT_GT(overlap["sound without"], overlap["sound with"]);
+  EXPECT_GT(overlap["literal without"], overlap["literal with"]);
   EXPECT_EQ(json["claims"].size(), 6u);
   EXPECT_TRUE(folder.has("fig2_sound.png"));
   EXPECT_TRUE(folder.has("fig2_literal.png"));
@@ -147,12 +167,34 @@ TEST(PaperCommands, ClaimsHaveNumbersAndVerdicts) {
   }
 }
 
-TEST(PaperCommands, EffectsMeasureEveryEffectOfEveryScene) {
+TEST(EffectsCommand, MeasuresEveryEffect) {
   const Json json =
-      runJson({"effects", std::string{SCENE_DIR} + "/paper/table2.textproto", "--particles", "1000", "--turns", "1"});
+      runJson({"effects", std::string{SCENE_DIR} + "/paper/table2.textproto", "--particles", "1000", "--seconds", "0.01"});
   EXPECT_EQ(json["effects"].size(), 9u);
-  for (const Json& effect : json["effects"]) EXPECT_FALSE(effect.contains("refusal")) << effect.dump();
+  for (const Json& effect : json["effects"]) {
+    EXPECT_FALSE(effect.contains("refusal")) << effect.dump();
+    EXPECT_GE(effect["alone"]["added_us_scatter"].get<double>(), 0.0);
+    EXPECT_TRUE(effect["alone"]["added_us_above_noise"].is_boolean());
+  }
   EXPECT_GT(json["all"]["us_per_particle_step"].get<double>(), 0.0);
+}
+
+TEST(EffectsCommand, NamesWhatAutoLeftOut) {
+  const Folder folder{"auto"};
+  std::filesystem::create_directories(folder.text());
+  const std::string scene = folder.text() + "/auto.textproto";
+  // A block of 40 mm is far above three capillary lengths.
+  std::ofstream{scene} << R"(
+    domain { lower_m { x: -0.1 y: -0.1 z: -0.1 } upper_m { x: 0.1 y: 0.1 z: 0.1 } capacity: 2000 }
+    resolution { spacing_m: 0.004 }
+    compressibility { design_speed_m_per_s: 0.3 }
+    effects { gravity {} pressure {} surface_tension {} auto: "surface_tension" }
+    fluid_blocks { lower_m { z: 0.0 } upper_m { x: 0.04 y: 0.04 z: 0.04 } })";
+  const Json json = runJson({"effects", scene, "--particles", "1000", "--seconds", "0.01"});
+  for (const Json& effect : json["effects"]) {
+    EXPECT_EQ(effect.contains("left_out_by_auto"), effect["name"] == "surface_tension") << effect.dump();
+    if (effect["name"] == "surface_tension") { EXPECT_FALSE(effect["in_scene"].get<bool>()); }
+  }
 }
 
 }  // namespace

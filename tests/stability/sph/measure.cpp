@@ -49,6 +49,7 @@ double energyOf(const sph::World& world) {
   const std::vector<sph::TissueShape> springs = springsOf(scene);
   const double c2 = world.speedOfSound() * world.speedOfSound();
   const double background = scene.effects.pressure ? scene.effects.pressure->background_pressure : 0.0;
+  const bool literal = scene.model == sph::Model::literal;
   const double free_density = scene.rest_density - background / c2;
   const sph::Vec3 gravity = scene.effects.gravity ? scene.effects.gravity->acceleration : sph::Vec3::Zero();
   double sum = 0.0;  // over the mass of a particle
@@ -56,7 +57,7 @@ double energyOf(const sph::World& world) {
     const sph::Vec3 at = positionOf(frame, i);
     sum += 0.5 * velocityOf(frame, i).squaredNorm() - gravity.dot(at);
     const double ratio = static_cast<double>(frame.density[i]) / free_density;
-    if (scene.effects.pressure && ratio > 1.0) sum += c2 * (std::log(ratio) + 1.0 / ratio - 1.0);
+    if (scene.effects.pressure && (ratio > 1.0 || literal)) sum += c2 * (std::log(ratio) + 1.0 / ratio - 1.0);
     for (const sph::TissueShape& wall : springs) {
       const double depth = std::max(0.0, 0.5 - sph::signedDistance(wall, at).value / scene.spacing);
       sum += 0.5 * c2 * depth * depth;

@@ -18,7 +18,8 @@ void runFor(
     sph::World& world, double seconds, const std::function<void()>& each = [] {});
 
 /// Kinetic + elastic + contact springs + gravity, J. Elastic: e(rho) = c0^2 (ln(rho/r) + r/rho - 1) above the density r = rho0 -
-/// p0/c0^2 at which the pressure ends, de/drho = p/rho^2. A spring holds m c0^2 ((dx/2 - d)/dx)^2 / 2 at d < dx/2 from a wall,
+/// p0/c0^2 at which the pressure ends, de/drho = p/rho^2; below it too in the literal model, whose pressure does not end (its
+/// stiffness is taken to be c0^2). A spring holds m c0^2 ((dx/2 - d)/dx)^2 / 2 at d < dx/2 from a wall,
 /// one for each face of a container.
 double energyOf(const sph::World& world);
 

@@ -27,7 +27,11 @@ TEST(Judge, WithinFivePerCentOrTheScatterItDepends) {
   EXPECT_EQ(judge({100.0, 3.0}, {110.1, 4.0}, Direction::larger), Verdict::holds);
 }
 
-TEST(Judge, WhatChangesNotABitDoesNotHold) { EXPECT_EQ(judge(kHundred, kHundred, Direction::larger), Verdict::does_not); }
+TEST(Judge, WhatChangesNothingDoesNotHold) {
+  EXPECT_EQ(judge(kHundred, kHundred, Direction::larger), Verdict::does_not);
+  EXPECT_EQ(judge(kHundred, {100.0 + 1e-12, 1.0}, Direction::larger), Verdict::does_not) << "rounding is no chance";
+  EXPECT_EQ(judge(kHundred, {100.0 + 1e-3, 1.0}, Direction::larger), Verdict::depends);
+}
 
 TEST(Judge, EqualIsWithinTenPerCentOrTheScatter) {
   EXPECT_EQ(judge({-1.0, 0.0}, {-1.09, 0.0}, Direction::equal), Verdict::holds);

@@ -26,6 +26,16 @@ TEST(FitLine, SaysHowMuchItExplains) {
   EXPECT_NEAR(fit.r2, 1.25 / 2.25, 1e-12);
 }
 
+// The same points: the residuals' squares sum to 4 over two degrees of freedom, x's to 5. sqrt(4/2/5).
+TEST(FitLine, SaysHowSureItsSlopeIs) {
+  const std::vector<double> x{-1.5, -0.5, 0.5, 1.5};
+  const std::vector<double> y{-1.5 + 1.0, -0.5 - 1.0, 0.5 - 1.0, 1.5 + 1.0};
+  const LineFit fit = fitLine(x, y);
+  ASSERT_TRUE(fit.slope_error.has_value());
+  EXPECT_NEAR(*fit.slope_error, std::sqrt(0.4), 1e-12);
+  EXPECT_FALSE(fitLine(std::span{x}.first(2), std::span{y}.first(2)).slope_error.has_value()) << "no residual is left";
+}
+
 TEST(FitLine, OfOnePlaceIsNothing) {
   const std::vector<double> x{2.0, 2.0};
   const std::vector<double> y{1.0, 3.0};
