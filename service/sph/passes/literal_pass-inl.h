@@ -21,8 +21,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 
+/// Bodies with radii of their own are compact (list_sweep-inl.h): code is bounded, and their lists are the longer ones.
+template <bool kCompact>
+struct CompactIf {};
+template <>
+struct CompactIf<true> {
+  static constexpr bool kCompact = true;
+};
+
 template <class L, LiteralSet kSet>
-class LiteralBody {
+class LiteralBody : public CompactIf<kSet.core_radius> {
  public:
   using V = typename L::V;
   using Real = typename L::Scalar;
@@ -46,7 +54,6 @@ class LiteralBody {
  public:
   static constexpr int kGroups =
       std::max({Pressure::kGroups, Tension::kGroups, Viscosity::kGroups, Platelets::kGroups, Repulsion::kGroups});
-  static constexpr bool kCompact = true;
 
   LiteralBody(const Job& job, std::uint32_t, const Real* record)
       : own_{record},

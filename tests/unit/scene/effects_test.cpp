@@ -253,8 +253,8 @@ TEST(SceneEffects, WhatAnEffectNeedsIsSaidOfThatEffect) {
 // The literal model's radii go up to 3.75 spacings, whatever the sound model's bounds say.
 TEST(SceneEffects, LiteralRadiiNeedRoomOfTheirOwn) {
   const std::string text = replaced(kEffectScene, "model: SOUND", "model: LITERAL");
-  EXPECT_THAT(parseScene(replaced(text, "y: -0.05", "y: 0.0275")).status().message(),
-              HasSubstr("\neffects.core_radius: three of its reaches are 0.0225 m, the periodic side y is 0.0225 m"));
+  EXPECT_THAT(parseScene(replaced(text, "y: -0.05", "y: 0.0276")).status().message(),
+              HasSubstr("\neffects.core_radius: three of its reaches are 0.0225 m, the periodic side y is 0.0224 m"));
   EXPECT_THAT(parseScene(replaced(text, "y: -0.05", "y: 0.0274")).status().message(), Not(HasSubstr("core_radius")));
 }
 
