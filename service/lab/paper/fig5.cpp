@@ -8,6 +8,7 @@
 #include "service/lab/paper/gush.h"
 #include "service/lab/paper/model_choice.h"
 #include "service/lab/paper/paper_files.h"
+#include "service/lab/side_by_side.h"
 
 namespace bleedsim::lab {
 namespace {
@@ -33,11 +34,13 @@ Status measure(Gush& gush, std::uint32_t particles, Fig5Run& run) {
   return {};
 }
 
-Fig5Run runOne(const sph::WorldDescription& scene, const PaperOptions& options, const std::string& model, char letter) {
+/// `threads`: of each step.
+Fig5Run runOne(const sph::WorldDescription& scene, const PaperOptions& options, int threads, const std::string& model,
+               char letter) {
   Fig5Run run;
   run.model = model;
   run.letter = letter;
-  auto gush = Gush::create(scene, options.world(), options.particles);
+  auto gush = Gush::create(scene, {.threads = threads, .simd = options.simd}, options.particles);
   if (!gush) {
     run.failure = gush.status().message();
     return run;
@@ -172,19 +175,26 @@ sph::EffectSettings effectsOf(const sph::EffectSettings& scene, const Fig5Varian
 }
 
 Result<std::vector<Fig5Run>> runFig5Variants(const PaperOptions& options, const ProgressReport& progress) {
-  std::vector<Fig5Run> runs;
-  const std::vector<ModelFace> faces = facesOf(options.model);
-  const double all = static_cast<double>(faces.size() * kFig5Variants.size());
-  for (const ModelFace& face : faces) {
+  struct Job {
+    sph::WorldDescription world;
+    std::string model;
+    char letter;
+  };
+  std::vector<Job> jobs;
+  for (const ModelFace& face : facesOf(options.model)) {
     const auto scene = loadFace(options, "fig5", face);
     if (!scene) return scene.status();
     for (const Fig5Variant& variant : kFig5Variants) {
-      sph::WorldDescription world = *scene;
-      world.effects = effectsOf(scene->effects, variant);
-      runs.push_back(runOne(world, options, face.name, variant.letter));
-      progress(static_cast<double>(runs.size()) / all);
+      jobs.push_back({*scene, face.name, variant.letter});
+      jobs.back().world.effects = effectsOf(scene->effects, variant);
     }
   }
+  std::vector<Fig5Run> runs(jobs.size());
+  const int threads = std::max(1, options.threads / static_cast<int>(jobs.size()));
+  runSideBySide(
+      jobs.size(), options.threads,
+      [&](std::size_t k) { runs[k] = runOne(jobs[k].world, options, threads, jobs[k].model, jobs[k].letter); },
+      [&](std::size_t done) { progress(static_cast<double>(done) / static_cast<double>(jobs.size())); });
   const bool none = std::all_of(runs.begin(), runs.end(), [](const Fig5Run& run) { return !run.failure.empty(); });
   if (none) return Status{StatusCode::internal, "no run of Fig. 5 came to its end; the first one: " + runs.front().failure};
   return runs;

@@ -63,7 +63,7 @@ struct Fig5Run {
 /// The sentences of Fig. 5, judged by runs of one model or two.
 std::vector<Claim> judgeFig5(const std::vector<Fig5Run>& runs);
 
-/// Runs of the models that the options ask for.
+/// Runs of the models that the options ask for, as many at a time as there are threads.
 Result<std::vector<Fig5Run>> runFig5Variants(const PaperOptions& options, const ProgressReport& progress);
 
 Result<PaperReport> runFig5(const PaperOptions& options, const ProgressReport& progress);

@@ -106,6 +106,16 @@ void expectFig5(const std::string& model) {
 TEST(PaperCommands, Fig5SoundHasSixRunsAndAVerdictForEachSentence) { expectFig5("sound"); }
 TEST(PaperCommands, Fig5LiteralHasSixRunsAndAVerdictForEachSentence) { expectFig5("literal"); }
 
+TEST(PaperCommands, Fig5DoesNotDependOnTheNumberOfThreads) {
+  const std::vector<std::string> options{"--particles", "100", "--model", "sound", "--threads"};
+  const auto with = [&](const char* threads) {
+    std::vector<std::string> all = options;
+    all.emplace_back(threads);
+    return runJson(paper("fig5", all));
+  };
+  EXPECT_EQ(with("1"), with("3"));
+}
+
 void expectGrowth(const std::string& name) {
   const Folder folder{name};
   const Json json = runJson(paper(name, {"--particles", "500", "-o", folder.text()}));
