@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "service/sph/command.h"
+#include "service/sph/running_code.h"
 #include "service/sph/simd_target.h"
 #include "service/sph/world_description.h"
 #include "service/status/status.h"
@@ -158,6 +159,7 @@ class World {
   virtual double particleMass() const = 0;  ///< kg, calibrated on the rest lattice
   virtual bool faulted() const = 0;
   virtual MemoryUse memory() const = 0;
+  virtual RunningCode runningCode() const = 0;
 };
 
 /// Checks what only the solver can (capacity against blocks, wounds against tissue and speed of sound) and builds the world.

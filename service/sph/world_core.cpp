@@ -436,7 +436,22 @@ MemoryUse WorldCore<Real>::memory() const {
   if (shear_rate_) use.effects += shear_rate_->bytes();
   if (implicit_viscosity_) use.effects += implicit_viscosity_->bytes();
   if (surface_tension_) use.effects += surface_tension_->bytes();
+  if (applied_force_) use.effects += applied_force_->bytes();
   return use;
+}
+
+template <class Real>
+RunningCode WorldCore<Real>::runningCode() const {
+  RunningCode code;
+  code.density = passes_.densityCode();
+  code.pair_forces = literal_ ? literal_->forceCode() : passes_.forceCode(!solving_viscosity_);
+  if (shear_rate_) code.shear_rate = shear_rate_->code();
+  if (surface_tension_) {
+    code.surface_normals = surface_tension_->normalsCode();
+    code.curvature = surface_tension_->curvatureCode();
+  }
+  if (solving_viscosity_) code.viscous_product = implicit_viscosity_->code();
+  return code;
 }
 
 template class WorldCore<float>;

@@ -65,6 +65,7 @@ class WorldCore final : public World {
   double particleMass() const override { return lattice_.particle_mass; }
   bool faulted() const override { return faulted_; }
   MemoryUse memory() const override;
+  RunningCode runningCode() const override;
 
  private:
   // The stages, in order.

@@ -109,7 +109,8 @@ std::uint64_t counterOf(const sph::World& world, sph::Counter counter) {
 }
 
 sph::FrameBuffer frameOf(const sph::World& world) {
-  constexpr std::uint32_t kAll = sph::kFrameVelocity | sph::kFrameDensity | sph::kFrameViscosity | sph::kFramePlatelet;
+  constexpr std::uint32_t kAll =
+      sph::kFrameVelocity | sph::kFrameDensity | sph::kFrameViscosity | sph::kFramePlatelet | sph::kFrameRadius;
   sph::FrameBuffer frame;
   frame.reserve(world.description().capacity, kAll);
   world.copyFrame(frame, kAll);
@@ -119,6 +120,7 @@ sph::FrameBuffer frameOf(const sph::World& world) {
   frame.density.resize(frame.count);
   frame.viscosity.resize(frame.count);
   frame.platelet.resize(frame.count);
+  frame.radius.resize(frame.count);
   return frame;
 }
 
@@ -136,6 +138,13 @@ sph::Vec3 momentumOf(const sph::World& world) {
   const sph::FrameBuffer frame = frameOf(world);
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < frame.count; ++i) sum += velocityOf(frame, i);
+  return world.particleMass() * sum;
+}
+
+double momentumScaleOf(const sph::World& world) {
+  const sph::FrameBuffer frame = frameOf(world);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < frame.count; ++i) sum += velocityOf(frame, i).norm();
   return world.particleMass() * sum;
 }
 

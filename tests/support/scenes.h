@@ -44,12 +44,14 @@ std::unique_ptr<sph::World> makeWorld(const sph::WorldDescription& description, 
 sph::WorldStats statsOf(const sph::World& world);
 std::uint64_t counterOf(const sph::World& world, sph::Counter counter);
 
-/// A frame with velocity, density, viscosity and platelets, its buffers cut to the particles that it holds.
+/// A frame with every attribute, its buffers cut to the particles that it holds.
 sph::FrameBuffer frameOf(const sph::World& world);
 
 sph::Vec3 positionOf(const sph::FrameBuffer& frame, std::size_t particle);  ///< m
 sph::Vec3 velocityOf(const sph::FrameBuffer& frame, std::size_t particle);  ///< m/s
 /// Sum of m v of a frame's particles, kg m/s.
 sph::Vec3 momentumOf(const sph::World& world);
+/// Sum of m |v|, kg m/s: what a momentum's error is measured by.
+double momentumScaleOf(const sph::World& world);
 
 }  // namespace bleedsim::test

@@ -73,6 +73,7 @@ class AppliedForce {
   }
 
   bool empty() const { return sources_.empty(); }
+  std::size_t bytes() const { return sources_.capacity() * sizeof(SetForce); }
 
   bool canHold(const AppliedForce& other) const { return other.sources_.size() <= max_sources_; }
   /// Takes over the other's sources; requires canHold().

@@ -47,6 +47,7 @@ class ImplicitViscosity {
         drag_{capacity, 71},
         partial_((capacity + kBlock - 1) / kBlock) {}
 
+  std::uintptr_t code() const { return codeOf(product_function_); }
   std::size_t bytes() const { return residual_.bytes() + product_.bytes() + drag_.bytes(); }
 
   /// Friction of tissue on particle i as a rate, 1/s, <= 0; all zero after clearDrag().

@@ -68,6 +68,8 @@ class LiteralForces {
     });
   }
 
+  std::uintptr_t forceCode() const { return codeOf(force_); }
+
  private:
   static const LiteralTable<Real>& tableFor([[maybe_unused]] SimdTarget target, bool periodic) {
     if constexpr (std::is_same_v<Real, double>)

@@ -43,6 +43,7 @@ class ShearRate {
               std::uint32_t count, int shares, Executor& executor);
 
   const Real* data() const { return rate_.data(); }  ///< g by particle, 1/s
+  std::uintptr_t code() const { return codeOf(sweep_); }
   std::size_t bytes() const { return moments_.bytes() + rate_.bytes(); }
 
  private:

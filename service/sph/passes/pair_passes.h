@@ -12,6 +12,7 @@
 #include "service/sph/neighbors/cell_grid.h"
 #include "service/sph/particles.h"
 #include "service/sph/passes/pass_table.h"
+#include "service/sph/running_code.h"
 
 namespace bleedsim::sph {
 
@@ -133,7 +134,7 @@ class PairPasses {
   /// density().
   void force(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int shares, Executor& executor,
              bool viscous) {
-    const ForceFunction<Real> function = viscous ? force_function_ : inviscid_function_;
+    const ForceFunction<Real> function = forceFunction(viscous);
     if (function == nullptr) {
       executor.run(shares, [&](int share) {
         const auto begin = grid.view().rowBegin(grid.firstRow(share, shares, count));
@@ -205,6 +206,9 @@ class PairPasses {
     return sum;
   }
 
+  std::uintptr_t densityCode() const { return codeOf(density_function_); }
+  std::uintptr_t forceCode(bool viscous) const { return codeOf(forceFunction(viscous)); }
+
   Real* acceleration() { return acceleration_.data(); }
   const Real* acceleration() const { return acceleration_.data(); }
   const Real* density() const { return density_.data(); }
@@ -224,6 +228,8 @@ class PairPasses {
   }
 
  private:
+  ForceFunction<Real> forceFunction(bool viscous) const { return viscous ? force_function_ : inviscid_function_; }
+
   static PairSet withoutViscosity(PairSet set) {
     set.viscosity = ViscosityTerm::none;
     return set;

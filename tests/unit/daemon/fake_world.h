@@ -38,6 +38,7 @@ class FakeWorld final : public sph::World {
   std::uint64_t stateHash() const override { return steps_ * 1000 + wounds_.size(); }
   Status adopt(sph::World& from) override;
   sph::MemoryUse memory() const override { return {}; }
+  sph::RunningCode runningCode() const override { return {}; }
   const sph::WorldDescription& description() const override { return description_; }
   sph::SimdTarget simdTarget() const override { return sph::SimdTarget::scalar; }
   double speedOfSound() const override { return 3.0; }

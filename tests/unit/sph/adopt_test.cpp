@@ -89,60 +89,6 @@ INSTANTIATE_TEST_SUITE_P(Worlds, Adopt,
                          testing::Values(WorldOptions{.threads = 1}, WorldOptions{.threads = 2},
                                          WorldOptions{.precision = Precision::float64}));
 
-struct Toggle {
-  const char* name;
-  std::function<void(EffectSettings&)> change;
-  double longest_step = 1.0;  ///< dx/c0
-  int steps = 300;
-};
-
-class AdoptToggle : public testing::TestWithParam<Toggle> {};
-
-// The state is taken over as it is: energy and momentum are equal to the bit. In the next step an effect may change the
-// velocities by a dt, which is no impulse: at most 5 % of the kinetic energy of a pool that moves at 0.1 m/s. None of the steps
-// after it adds as much, those in which the contacts of repulsion grow included (200 dx/c0).
-TEST_P(AdoptToggle, CostsNoImpulse) {
-  WorldDescription before = pool();
-  before.fluid_blocks[0].velocity = {0.1, 0.0, 0.0};
-  const auto old = test::makeWorld(before, {});
-  step(*old, 40);
-  const WorldStats then = test::statsOf(*old);
-  WorldDescription after = before;
-  GetParam().change(after.effects);
-  after.max_dt = GetParam().longest_step * after.spacing / old->speedOfSound();
-  const auto heir = test::makeWorld(after, {.speed_of_sound = old->speedOfSound()});
-  ASSERT_TRUE(heir->adopt(*old).ok());
-  const WorldStats now = test::statsOf(*heir);
-  EXPECT_EQ(now.kinetic_energy, then.kinetic_energy);
-  EXPECT_EQ(now.momentum, then.momentum);
-  EXPECT_EQ(now.particles, then.particles);
-  step(*heir, 1);
-  double last = test::statsOf(*heir).kinetic_energy;
-  EXPECT_LE(std::abs(last - then.kinetic_energy), 0.05 * then.kinetic_energy);
-  for (int i = 0; i < GetParam().steps; ++i) {
-    step(*heir, 1);
-    const double next = test::statsOf(*heir).kinetic_energy;
-    ASSERT_LE(next, 1.05 * last) << "step " << i;
-    last = next;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Effects, AdoptToggle,
-                         testing::Values(Toggle{"viscosity_off", [](EffectSettings& e) { e.viscosity.reset(); }},
-                                         Toggle{"thick", [](EffectSettings& e) { e.viscosity->viscosity = 0.5; }},
-                                         Toggle{"casson", [](EffectSettings& e) { e.viscosity->rheology = CassonRheology{}; }},
-                                         Toggle{"symmetric",
-                                                [](EffectSettings& e) { e.pressure->form = PressureForm::symmetric; }},
-                                         Toggle{"gravity_off", [](EffectSettings& e) { e.gravity.reset(); }},
-                                         // 0.1 dx/c0: the step that repulsion needs, physics.md section 2.
-                                         Toggle{"repulsion", [](EffectSettings& e) { e.repulsion.emplace(); }, 0.1, 2200},
-                                         Toggle{"tension", [](EffectSettings& e) { e.surface_tension.emplace(); }},
-                                         Toggle{"platelets", [](EffectSettings& e) { e.platelets.emplace(); }},
-                                         Toggle{"adhesion", [](EffectSettings& e) { e.adhesion.emplace(); }},
-                                         Toggle{"core_radius", [](EffectSettings& e) { e.core_radius.emplace(); }},
-                                         Toggle{"force_off", [](EffectSettings& e) { e.applied_force.reset(); }}),
-                         [](const auto& tested) { return std::string{tested.param.name}; });
-
 TEST(AdoptState, TheNextStepObeysTheNewLimits) {
   const auto old = test::makeWorld(pool(), {});
   step(*old, 20);

@@ -101,12 +101,39 @@ TEST(PaperKernel, isThePrintedForm) {
     const double r = q * kH;
     const auto expect = [&](double value, double printed) { EXPECT_NEAR(value / printed, 1.0, 1e-12) << q; };
     expect(SmoothingKernel{KernelType::poly6, kH}.value(r), 315.0 / (64.0 * pi * h6 * h3) * std::pow(h2 - r * r, 3));
+    expect(SmoothingKernel{KernelType::poly6, kH}.slope(r), -945.0 / (32.0 * pi * h6 * h3) * r * std::pow(h2 - r * r, 2));
+    expect(SmoothingKernel{KernelType::poly6, kH}.laplacian(r),
+           -945.0 / (32.0 * pi * h6 * h3) * (h2 - r * r) * (3.0 * h2 - 7.0 * r * r));
     expect(SmoothingKernel{KernelType::spiky, kH}.value(r), 15.0 / (pi * h6) * std::pow(kH - r, 3));
     expect(SmoothingKernel{KernelType::spiky, kH}.slope(r), -45.0 / (pi * h6) * std::pow(kH - r, 2));
     expect(SmoothingKernel{KernelType::viscosity, kH}.value(r),
            15.0 / (2.0 * pi * h3) * (-r * r * r / (2.0 * h3) + r * r / h2 + kH / (2.0 * r) - 1.0));
+    expect(SmoothingKernel{KernelType::spiky, kH}.laplacian(r), 90.0 / (pi * h6) * (kH - r) * (2.0 - kH / r));
+    expect(SmoothingKernel{KernelType::viscosity, kH}.slope(r),
+           15.0 / (2.0 * pi * h3) * (-3.0 * r * r / (2.0 * h3) + 2.0 * r / h2 - kH / (2.0 * r * r)));
     expect(SmoothingKernel{KernelType::viscosity, kH}.laplacian(r), 45.0 / (pi * h6) * (kH - r));
     expect(SmoothingKernel{KernelType::viscosity, kH, 0.001}.laplacian(r), 40.0 / (pi * h2 * h3) * (kH - r) / 0.001);
+  }
+}
+
+// The design's forms (physics.md section 2) in space, with the Laplacians W'' + 2 W'/r that follow. Equal to rounding; q = 0.05
+// to 0.95 without 1/2, where both Laplacians pass through 0.
+TEST(SoundKernel, isTheDesignsForm) {
+  const double h3 = kH * kH * kH;
+  const double pi = std::numbers::pi;
+  const SmoothingKernel wendland{KernelType::wendland_c2, kH};
+  const SmoothingKernel spline{KernelType::cubic_spline, kH};
+  for (double q = 0.05; q < 1.0; q += 0.1) {
+    const double r = q * kH;
+    const double t = 1.0 - q;
+    const bool inner = q < 0.5;
+    const auto expect = [&](double value, double form) { EXPECT_NEAR(value / form, 1.0, 1e-12) << q; };
+    expect(wendland.value(r), 21.0 / (2.0 * pi * h3) * t * t * t * t * (1.0 + 4.0 * q));
+    expect(wendland.slope(r), -210.0 / (pi * h3 * kH) * q * t * t * t);
+    expect(wendland.laplacian(r), -630.0 / (pi * h3 * kH * kH) * t * t * (1.0 - 2.0 * q));
+    expect(spline.value(r), 8.0 / (pi * h3) * (inner ? 1.0 - 6.0 * q * q + 6.0 * q * q * q : 2.0 * t * t * t));
+    expect(spline.slope(r), 8.0 / (pi * h3 * kH) * (inner ? -12.0 * q + 18.0 * q * q : -6.0 * t * t));
+    expect(spline.laplacian(r), 8.0 / (pi * h3 * kH * kH) * (inner ? -36.0 + 72.0 * q : 12.0 * t * (2.0 * q - 1.0) / q));
   }
 }
 

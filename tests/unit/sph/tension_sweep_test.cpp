@@ -5,7 +5,7 @@
 
 #include "tests/support/drops.h"
 #include "tests/unit/sph/pass_rig.h"
-#include "tests/unit/sph/tension_rig.h"
+#include "tests/support/tension_rig.h"
 
 namespace bleedsim::sph {
 namespace {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/scenes.h"
+#include "tests/unit/sph/frame_differences.h"
 #include "tests/unit/sph/pass_rig.h"
 
 namespace bleedsim::sph {
@@ -92,46 +93,6 @@ const std::vector<Case>& cases() {
   return kAll;
 }
 
-/// Frame storage sorted by id: targets may sort particles at a cell's border differently.
-std::vector<std::size_t> orderById(const FrameBuffer& frame) {
-  std::vector<std::size_t> order(frame.count);
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return frame.id[a] < frame.id[b]; });
-  return order;
-}
-
-struct Differences {
-  double position = 0.0;   // m
-  double velocity = 0.0;   // m/s
-  double density = 0.0;    // kg/m^3
-  double viscosity = 0.0;  // Pa s
-  double platelet = 0.0;
-};
-
-/// Largest difference of each field, as a part of the field's largest magnitude.
-Differences compare(const FrameBuffer& a, const FrameBuffer& b) {
-  const std::vector<std::size_t> of_a = orderById(a);
-  const std::vector<std::size_t> of_b = orderById(b);
-  Differences apart;
-  Differences largest;
-  for (std::size_t k = 0; k < of_a.size(); ++k) {
-    const std::size_t i = of_a[k];
-    const std::size_t j = of_b[k];
-    EXPECT_EQ(a.id[i], b.id[j]);
-    apart.position = std::max(apart.position, (test::positionOf(a, i) - test::positionOf(b, j)).norm());
-    apart.velocity = std::max(apart.velocity, (test::velocityOf(a, i) - test::velocityOf(b, j)).norm());
-    apart.density = std::max(apart.density, std::abs(double(a.density[i]) - double(b.density[j])));
-    apart.viscosity = std::max(apart.viscosity, std::abs(double(a.viscosity[i]) - double(b.viscosity[j])));
-    apart.platelet = std::max(apart.platelet, std::abs(double(a.platelet[i]) - double(b.platelet[j])));
-    largest.position = std::max(largest.position, test::positionOf(a, i).norm());
-    largest.velocity = std::max(largest.velocity, test::velocityOf(a, i).norm());
-    largest.density = std::max(largest.density, double(a.density[i]));
-    largest.viscosity = std::max(largest.viscosity, double(a.viscosity[i]));
-  }
-  return {apart.position / largest.position, apart.velocity / largest.velocity, apart.density / largest.density,
-          largest.viscosity > 0.0 ? apart.viscosity / largest.viscosity : apart.viscosity, apart.platelet};
-}
-
 class SimdWorld : public testing::TestWithParam<Case> {};
 
 TEST_P(SimdWorld, OneStepIsThatOfTheScalarTwin) {
@@ -146,14 +107,7 @@ TEST_P(SimdWorld, OneStepIsThatOfTheScalarTwin) {
     ASSERT_EQ(world->simdTarget(), target);
     ASSERT_TRUE(world->step(1.0).ok());
     EXPECT_NEAR(world->time(), scalar->time(), 1e-6 * scalar->time());
-    const FrameBuffer frame = test::frameOf(*world);
-    ASSERT_EQ(frame.count, expected.count);
-    const Differences apart = compare(frame, expected);
-    EXPECT_LT(apart.position, 1e-5) << simdTargetName(target);
-    EXPECT_LT(apart.velocity, 1e-5) << simdTargetName(target);
-    EXPECT_LT(apart.density, 1e-5) << simdTargetName(target);
-    EXPECT_LT(apart.viscosity, 1e-5) << simdTargetName(target);
-    EXPECT_LT(apart.platelet, 1e-6) << simdTargetName(target);
+    expectAlike(test::frameOf(*world), expected, simdTargetName(target));
   }
 }
 

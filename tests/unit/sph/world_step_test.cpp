@@ -129,7 +129,7 @@ TEST(WorldFrame, HoldsTheAttributesAskedFor) {
   const auto world = test::makeWorld(description);
   const FrameBuffer whole = test::frameOf(*world);
   ASSERT_EQ(whole.count, 192u);
-  EXPECT_EQ(whole.attributes, kFrameVelocity | kFrameDensity | kFrameViscosity | kFramePlatelet);
+  EXPECT_EQ(whole.attributes, kFrameVelocity | kFrameDensity | kFrameViscosity | kFramePlatelet | kFrameRadius);
   for (std::size_t i = 0; i < whole.count; ++i) {
     EXPECT_NEAR(whole.viscosity[i], test::positionOf(whole, i).x() > 0.01 ? 0.05 : 0.00345, 1e-8);
     EXPECT_GT(whole.density[i], 100.0f);

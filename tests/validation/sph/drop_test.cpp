@@ -7,6 +7,7 @@
 
 #include "tests/stability/sph/measure.h"
 #include "tests/support/drops.h"
+#include "tests/support/tension_rig.h"
 
 namespace bleedsim::test {
 namespace {
@@ -36,11 +37,36 @@ double radiusOf(const sph::World& world) {
   return std::cbrt(3.0 * world.particleCount() * world.description().particleVolume() / (4.0 * std::numbers::pi));
 }
 
-/// The drop of R = 8 dx, come to rest at 0.5 Pa s.
-std::unique_ptr<sph::World> restingDrop(double support_ratio) {
-  auto world = makeWorld(drop(support_ratio, 8.0, 0.5));
-  runFor(*world, 0.1);
+/// A drop that comes to rest at 0.5 Pa s.
+std::unique_ptr<sph::World> restingDrop(double support_ratio, double radius_in_spacings = 8.0, double seconds = 0.1) {
+  auto world = makeWorld(drop(support_ratio, radius_in_spacings, 0.5));
+  runFor(*world, seconds);
   return world;
+}
+
+/// What the accelerations by tension alone say of the pressure, over 2 sigma/R. The velocities, which tension damps, are left
+/// out.
+struct RadialBalance {
+  double along = 0.0;    ///< p(0) = -int rho a . rhat dr: each particle's m over the area 4 pi r^2 at which it stands
+  double surface = 0.0;  ///< all of it on the surface: -sum m a . rhat/(4 pi R^2)
+};
+RadialBalance radialBalance(const sph::World& world) {
+  const sph::FrameBuffer frame = frameOf(world);
+  const Vec3 center = statsOf(world).center;
+  OracleParticles particles;
+  for (std::size_t i = 0; i < frame.count; ++i) particles.position.push_back(positionOf(frame, i) - center);
+  particles.velocity.assign(frame.count, Vec3::Zero());
+  const sph::TensionRig<float> rig{world.description(), sph::availableSimdTargets().front(), particles};
+  const double radius = radiusOf(world);
+  const double unit = world.particleMass() / (4.0 * std::numbers::pi) / (2.0 * kSigma / radius);
+  RadialBalance balance;
+  for (std::size_t i = 0; i < frame.count; ++i) {
+    const double r = particles.position[i].norm();
+    const double inward = -rig.acceleration()[i].dot(particles.position[i]) / r;
+    balance.along += unit * inward / (r * r);
+    balance.surface += unit * inward / (radius * radius);
+  }
+  return balance;
 }
 
 /// Mean pressure of the inner half of the radius, Pa.
@@ -58,33 +84,82 @@ double corePressure(const sph::World& world) {
   return sum / count;
 }
 
+struct Ball {
+  const char* name;
+  double support_ratio;
+  double radius;    ///< in spacings
+  double lattice;   ///< bound of the balance of the ball as it is seeded, under the factor 2
+  double along;     ///< of the drop at rest
+  double surface;   ///< of the drop at rest
+  double pressure;  ///< of the drop at rest, in its middle
+};
+
+class LaplaceTest : public testing::TestWithParam<Ball> {};
+
+// p(0) = 2 sigma/R on the ball as it is seeded, R that of its volume. The solver's factor 1.56 stands for 2 on a lattice
+// (surface_tension.h), with which the balance is 1.15 / 1.03 / 1.02 at R = 5 / 8 / 12 dx and h = 3 dx, 1.03 / 1.00 / 1.00 at 2.5
+// dx: 5 % but for a radius of less than two h.
+TEST_P(LaplaceTest, latticeBallBalancesAlongARadius) {
+  const auto world = makeWorld(drop(GetParam().support_ratio, GetParam().radius, 0.5));
+  const double ratio = radialBalance(*world).along * 2.0 / 1.56;
+  RecordProperty("ratio", std::to_string(ratio));
+  EXPECT_NEAR(ratio, 1.0, GetParam().lattice);
+}
+
+// The same of the drop at rest, beside the pressure itself in its middle; means over time, because a drop rings at the speed of
+// sound. At R = 5 / 8 / 12 dx and h = 3 dx the balance is 1.33 / 1.21 / 1.11: the design's 5 % is out of its reach, because the
+// packed outermost centres stand 0.85 dx inside R and the formula gives their force the weight (R/r)^2, 1.25 at 8 dx. With all of
+// it on the surface it is 0.92 / 0.95 / 0.95. What the drop really has, 1.03 / 1.02 / 1.02, lies between and keeps the 5 %.
+// At 2.5 dx, where 30 % are allowed: 1.17 / 1.07 / 1.13, 0.86 / 0.87 / 1.00 and 1.06 / 0.93 / 1.11. The largest drop has half the
+// time to come to rest.
+TEST_P(LaplaceTest, dropAtRestHasLaplacesPressure) {
+  const Ball& ball = GetParam();
+  const bool large = ball.radius > 10.0;
+  sph::WorldDescription scene = restarted(*restingDrop(ball.support_ratio, ball.radius, large ? 0.05 : 0.1));
+  scene.effects.viscosity->viscosity = 0.05;
+  const auto world = makeWorld(scene);
+  const double laplace = 2.0 * kSigma / radiusOf(*world);
+  runFor(*world, large ? 0.05 : 0.1);
+  double pressure = 0.0;
+  RadialBalance balance;
+  int pressures = 0;
+  int balances = 0;
+  runFor(*world, large ? 0.05 : 0.2, [&] {
+    if (world->stepCount() % 5 == 0) {
+      pressure += corePressure(*world) / laplace;
+      ++pressures;
+    }
+    if (world->stepCount() % 20 == 0) {
+      const RadialBalance now = radialBalance(*world);
+      balance.along += now.along;
+      balance.surface += now.surface;
+      ++balances;
+    }
+  });
+  RecordProperty("pressure", std::to_string(pressure / pressures));
+  RecordProperty("along", std::to_string(balance.along / balances));
+  RecordProperty("surface", std::to_string(balance.surface / balances));
+  EXPECT_NEAR(balance.along / balances, 1.0, ball.along);
+  EXPECT_NEAR(balance.surface / balances, 1.0, ball.surface);
+  EXPECT_NEAR(pressure / pressures, 1.0, ball.pressure);
+}
+
+INSTANTIATE_TEST_SUITE_P(drops, LaplaceTest,
+                         testing::Values(Ball{"three_5", 3.0, 5.0, 0.16, 0.40, 0.10, 0.05},
+                                         Ball{"three_8", 3.0, 8.0, 0.05, 0.25, 0.06, 0.05},
+                                         Ball{"three_12", 3.0, 12.0, 0.05, 0.15, 0.10, 0.05},
+                                         Ball{"twoAndAHalf_5", 2.5, 5.0, 0.05, 0.30, 0.20, 0.30},
+                                         Ball{"twoAndAHalf_8", 2.5, 8.0, 0.05, 0.15, 0.15, 0.10},
+                                         Ball{"twoAndAHalf_12", 2.5, 12.0, 0.05, 0.20, 0.15, 0.20}),
+                         [](const auto& tested) { return tested.param.name; });
+
 struct Accuracy {
   const char* name;
   double support_ratio;
-  double laplace;  ///< relative
-  double period;   ///< relative
+  double period;  ///< relative
 };
 
 class DropTest : public testing::TestWithParam<Accuracy> {};
-
-// p = 2 sigma/R, R of the drop's volume: the pressure in the middle is what balances tension along a radius, and it is the mean
-// over 0.2 s that does, because a drop rings at the speed of sound.
-TEST_P(DropTest, laplacePressure) {
-  sph::WorldDescription scene = restarted(*restingDrop(GetParam().support_ratio));
-  scene.effects.viscosity->viscosity = 0.05;
-  const auto world = makeWorld(scene);
-  runFor(*world, 0.1);
-  double sum = 0.0;
-  int count = 0;
-  runFor(*world, 0.2, [&] {
-    if (world->stepCount() % 5 != 0) return;
-    sum += corePressure(*world);
-    ++count;
-  });
-  const double ratio = sum / count / (2.0 * kSigma / radiusOf(*world));
-  RecordProperty("pressure_ratio", std::to_string(ratio));
-  EXPECT_NEAR(ratio, 1.0, GetParam().laplace);
-}
 
 /// Mean of z^2 - (x^2 + y^2)/2, m^2: 0 for a ball.
 double prolateness(const sph::World& world) {
@@ -128,12 +203,11 @@ TEST_P(DropTest, rayleighPeriod) {
   RecordProperty("period_ratio", std::to_string(period / expected));
   EXPECT_NEAR(period / expected, 1.0, GetParam().period);
   expectInvariants(*world);
-  const Vec3 momentum = momentumOf(*world);
-  EXPECT_LT(momentum.norm(), 1e-5 * world->particleMass() * world->particleCount() * speedRms(*world));
+  EXPECT_LT(momentumOf(*world).norm(), 1e-6 * momentumScaleOf(*world));
 }
 
 INSTANTIATE_TEST_SUITE_P(supportRatios, DropTest,
-                         testing::Values(Accuracy{"twoAndAHalf", 2.5, 0.30, 0.30}, Accuracy{"three", 3.0, 0.05, 0.12}),
+                         testing::Values(Accuracy{"twoAndAHalf", 2.5, 0.30}, Accuracy{"three", 3.0, 0.12}),
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace

@@ -44,17 +44,19 @@ std::unique_ptr<sph::World> sessileDrop(double support_ratio, double angle) {
 class WettingTest : public testing::TestWithParam<double> {};
 
 // Without gravity a drop at rest is a cap that meets the plane at the contact angle. Its mean height says which: 30, 90 and 150
-// degrees spread, stand and bead. 25 %: the base is 14 dx wide, and the layer within h of the plane, where the angle is imposed,
-// is a third to half of the drop.
+// degrees spread, stand and bead. Measured: 1.06, 0.92 and 0.81 of the cap's at h = 2.5 dx, 1.10, 0.89 and 0.81 at 3 dx, which
+// are caps of 33, 83 and 128 and of 34, 80 and 128 degrees: the layer within h of the plane, where the normal turns to the angle,
+// is a third to half of the drop, and in a beaded drop the overhang next to the plane is thinner than h. The ratio of
+// mean height to mean radius says the same to 2 degrees, but in the drop that beads at 3 dx, where strays move it by 9.
 TEST_P(WettingTest, aDropSpreadsOrBeadsByTheContactAngle) {
   double before = 0.0;
-  for (const double degrees : {30.0, 90.0, 150.0}) {
+  for (const auto& [degrees, bound] : {std::pair{30.0, 0.12}, std::pair{90.0, 0.13}, std::pair{150.0, 0.20}}) {
     const double angle = degrees * std::numbers::pi / 180.0;
     const auto world = sessileDrop(GetParam(), angle);
     const double height = statsOf(*world).center.z();
     const double expected = capMeanHeight(angle, world->particleCount() * world->description().particleVolume());
     RecordProperty("height_ratio_at_" + std::to_string(static_cast<int>(degrees)), std::to_string(height / expected));
-    EXPECT_NEAR(height / expected, 1.0, 0.25) << degrees << " degrees";
+    EXPECT_NEAR(height / expected, 1.0, bound) << degrees << " degrees";
     EXPECT_GT(height, 1.2 * before);
     expectInvariants(*world);
     before = height;
