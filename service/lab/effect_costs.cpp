@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "service/lab/effect_slots.h"
+#include "service/sph/effects/effect_list.h"
 
 namespace bleedsim::lab {
 namespace {
@@ -110,12 +110,12 @@ Result<EffectCosts> measureEffectCosts(const sph::WorldDescription& scene, const
   if (!whole) return whole.status();
 
   EffectCosts costs;
-  std::vector<Measured> measured(kEffectSlots.size());
+  std::vector<Measured> measured(sph::kEffects.size());
   std::vector<Variant*> turns{base->get(), whole->get()};
-  for (std::size_t k = 0; k < kEffectSlots.size(); ++k) {
-    const EffectSlot& slot = kEffectSlots[k];
+  for (std::size_t k = 0; k < sph::kEffects.size(); ++k) {
+    const sph::EffectSlot& slot = sph::kEffects[k].slot;
     EffectCost cost;
-    cost.name = slot.name;
+    cost.name = sph::kEffects[k].info.name;
     cost.in_scene = slot.present(scene.effects);
     const auto measure = [&](const sph::EffectSettings& effects, std::unique_ptr<Variant>& variant) {
       auto created = Variant::create(pool, effects, options);
@@ -137,7 +137,7 @@ Result<EffectCosts> measureEffectCosts(const sph::WorldDescription& scene, const
       measure(without, measured[k].without);
     }
     costs.effects.push_back(std::move(cost));
-    progress(0.5 * static_cast<double>(k + 1) / static_cast<double>(kEffectSlots.size()));
+    progress(0.5 * static_cast<double>(k + 1) / static_cast<double>(sph::kEffects.size()));
   }
   for (int turn = 0; turn < options.turns; ++turn) {
     for (Variant* variant : turns) {

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numbers>
 #include <variant>
+
+#include "service/sph/world_setup.h"
 
 namespace bleedsim::scene {
 namespace {
@@ -75,25 +76,6 @@ double clottingTime(const sph::PlateletSettings& p) {
   return std::log((2.0 - rest) / fresh) / (rate * p.clot_speedup);
 }
 
-struct ThickestAtRest {
-  double operator()(const sph::NewtonianRheology&) const { return newtonian; }
-  double operator()(const sph::CarreauYasudaRheology& law) const { return law.zero_shear; }
-  double operator()(const sph::CassonRheology& law) const {
-    const double root = std::sqrt(law.viscosity) + std::sqrt(law.yield_stress / law.regularisation_shear_rate);
-    return root * root;
-  }
-  double newtonian;
-};
-
-/// Pa s, that any particle may come to.
-double largestViscosity(const sph::WorldDescription& world) {
-  const sph::ViscositySettings& settings = *world.effects.viscosity;
-  double largest = std::visit(ThickestAtRest{settings.viscosity}, settings.rheology);
-  for (const sph::FluidBlock& block : world.fluid_blocks) largest = std::max(largest, block.viscosity.value_or(0.0));
-  if (world.effects.platelets) largest = std::max(largest, world.effects.platelets->clot_viscosity);
-  return largest;
-}
-
 }  // namespace
 
 const std::vector<std::string>& autoNames() {
@@ -132,16 +114,11 @@ AutoDecision decidePlatelets(const sph::WorldDescription& world, double horizon)
 
 AutoDecision decideImplicitViscosity(const sph::WorldDescription& world, double speed_of_sound) {
   AutoDecision decision{std::string{kAutoImplicit}, false, {}};
-  const double h = world.supportRadius();
-  const double viscosity = largestViscosity(world);
-  const double explicit_limit = viscosity > 0.0 ? 0.045 * h * h * world.rest_density / viscosity : kInfinity;
-  double other = std::min(0.4 * world.spacing / speed_of_sound, world.max_dt);
-  if (world.effects.surface_tension) {
-    const double cube = world.spacing * world.spacing * world.spacing;
-    other = std::min(other, 0.25 * std::sqrt(world.rest_density * cube /
-                                             (2.0 * std::numbers::pi * world.effects.surface_tension->coefficient)));
-  }
-  if (world.effects.repulsion) other = std::min(other, 0.1 * world.spacing / speed_of_sound);
+  const double viscosity = sph::largestPossibleViscosity(world);
+  const double explicit_limit = viscosity > 0.0 ? sph::diffusionLimit(world, viscosity / world.rest_density) : kInfinity;
+  sph::TimeStepLimits limits = sph::timeStepLimits(world, speed_of_sound);
+  limits.viscous = kInfinity;
+  const double other = sph::stableTimeStep(limits, 0.0, 0.0, kInfinity);
   decision.enabled = explicit_limit < other;
   decision.reason = fmt::format("the explicit limit, {:.3g} ms, is {} the next one, {:.3g} ms", explicit_limit * 1e3,
                                 decision.enabled ? "below" : "not below", other * 1e3);
@@ -149,7 +126,7 @@ AutoDecision decideImplicitViscosity(const sph::WorldDescription& world, double 
 }
 
 std::vector<AutoDecision> applyAuto(const std::vector<std::string>& names, std::optional<double> horizon,
-                                    sph::WorldDescription& world) {
+                                    std::optional<double> speed_of_sound, sph::WorldDescription& world) {
   const auto named = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
   std::vector<AutoDecision> decisions;
   if (named(kAutoTension) && world.effects.surface_tension) {
@@ -162,7 +139,7 @@ std::vector<AutoDecision> applyAuto(const std::vector<std::string>& names, std::
   }
   // Last: the limits depend on what is left.
   if (named(kAutoImplicit) && world.effects.viscosity) {
-    decisions.push_back(decideImplicitViscosity(world, sph::speedOfSound(world)));
+    decisions.push_back(decideImplicitViscosity(world, speed_of_sound.value_or(sph::speedOfSound(world))));
     if (!decisions.back().enabled) world.effects.viscosity->solve = sph::ViscositySolve::explicit_;
   }
   return decisions;

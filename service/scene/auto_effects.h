@@ -1,9 +1,9 @@
 // `effects.auto`: which effects a scene may do without, because they provably cannot matter in it.
 //
-// rule                 | left out when                                   | figures
-// surface_tension      | smallest feature > 3 capillary lengths          | l_c = sqrt(sigma/(rho g)), m; never without gravity
-// platelets            | horizon_s < 1 % of the clotting time            | s until P of the fastest place, at tissue and air, is
-// 1/2 implicit_viscosity   | 0.045 h^2 rho/mu_max above another dt limit     | s; the limits of physics.md section 2, at rest
+// rule               | left out when                                    | figures
+// surface_tension    | smallest feature > 3 capillary lengths           | l_c = sqrt(sigma/(rho g)), m; never without gravity
+// platelets          | horizon_s < 1 % of the clotting time             | s until P of the fastest place, at tissue and air, is
+// 1/2 implicit_viscosity | 0.045 h^2 rho/mu_max not below another dt limit  | s; the solver's limits (time_step.h), at rest
 //
 // A feature is what the scene gives blood a size by: the narrow side of a wound's patch, the shortest side of a fluid block or of
 // box tissue, the depth and radius of a bowl. Tension shapes blood below about l_c; at 3 l_c the hydrostatic pressure across
@@ -37,8 +37,9 @@ AutoDecision decideTension(const sph::WorldDescription& world);
 AutoDecision decidePlatelets(const sph::WorldDescription& world, double horizon);
 AutoDecision decideImplicitViscosity(const sph::WorldDescription& world, double speed_of_sound);
 
-/// Takes the named decisions and leaves the effects out that need not be.
+/// Takes the named decisions and leaves the effects out that need not be. `speed_of_sound` in m/s is that of the session which
+/// already runs the scene; without one, the scene's own.
 std::vector<AutoDecision> applyAuto(const std::vector<std::string>& names, std::optional<double> horizon,
-                                    sph::WorldDescription& world);
+                                    std::optional<double> speed_of_sound, sph::WorldDescription& world);
 
 }  // namespace bleedsim::scene

@@ -54,8 +54,7 @@ void leaveAuto(const std::string& name, Effects& effects) {
 
 }  // namespace
 
-Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change,
-                                      std::optional<double> speed_of_sound) {
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change, double speed_of_sound) {
   const google::protobuf::FieldDescriptor* field = findEffect(change.name);
   if (field == nullptr) return unknownEffect(change.name);
   Scene message;

@@ -1,7 +1,6 @@
 // An effect of a running scene is switched, or gets other settings.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "service/scene/scene.h"
@@ -16,12 +15,10 @@ struct EffectChange {
   std::string settings;
 };
 
-/// The scene as it reads with the change. not_found: no such effect, with the list; invalid_argument: the first problem of the
-/// settings or of the combination, short enough for a reply.
-/// An effect that goes off takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves
-/// effects.auto: who switches by hand has decided.
-/// `speed_of_sound` (m/s) is that of the world that runs and stays; without it the changed scene's own.
-Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change,
-                                      std::optional<double> speed_of_sound = {});
+/// The scene as it reads with the change, in a session that runs at `speed_of_sound`, m/s. not_found: no such effect, with the
+/// list; invalid_argument: the first problem of the settings or of the combination, short enough for a reply. An effect that goes
+/// off takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves effects.auto: who
+/// switches by hand has decided.
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change, double speed_of_sound);
 
 }  // namespace bleedsim::scene

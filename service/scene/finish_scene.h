@@ -10,8 +10,7 @@
 namespace bleedsim::scene {
 
 /// Fills defaults, validates, converts, decides what effects.auto leaves to us and writes the normalised text. `problems` may
-/// hold those of the text; all are told.
-/// `speed_of_sound` (m/s) is that of a world that runs; without it the scene's own.
+/// hold those of the text; all are told. `speed_of_sound` as of applyAuto().
 Result<SceneDescription> finishScene(Scene& message, ProblemList& problems, std::optional<double> speed_of_sound = {});
 
 }  // namespace bleedsim::scene

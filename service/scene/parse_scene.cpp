@@ -13,11 +13,11 @@ namespace bleedsim::scene {
 namespace {
 
 /// Lets effects.auto act on the description; what is left out takes its name and its attribute along.
-void decide(const Scene& message, SceneDescription& description) {
+void decide(const Scene& message, std::optional<double> speed_of_sound, SceneDescription& description) {
   std::optional<double> horizon;
   if (message.has_horizon_s()) horizon = message.horizon_s();
   const auto& names = message.effects().auto_();
-  for (const AutoDecision& decision : applyAuto({names.begin(), names.end()}, horizon, description.world)) {
+  for (const AutoDecision& decision : applyAuto({names.begin(), names.end()}, horizon, speed_of_sound, description.world)) {
     description.decisions.push_back(
         fmt::format("auto: {} {}: {}", decision.name, decision.enabled ? "stays on" : "off", decision.reason));
     if (decision.enabled) continue;
@@ -35,7 +35,7 @@ Result<SceneDescription> finishScene(Scene& message, ProblemList& problems, std:
   if (!problems.empty()) return problems.toStatus();
   SceneDescription description = convert(message);
   description.normalized_text = writeText(message);
-  decide(message, description);
+  decide(message, speed_of_sound, description);
   return description;
 }
 

@@ -24,8 +24,8 @@ constexpr std::uint32_t kMostForceSources = 65'536;
 constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::count)> kStageNames{
     "emit", "move", "neighbors", "tissue", "density", "force", "body", "integrate"};
 constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)> kCounterNames{
-    "speed_clamped",   "acceleration_clamped", "tissue_projected",    "left_domain",   "emission_refused",
-    "inlet_withdrawn", "neighbor_overflow",    "force_without_fluid", "force_expired", "viscosity_unsolved"};
+    "speed_clamped",     "acceleration_clamped", "tissue_projected", "left_domain",        "emission_refused", "inlet_withdrawn",
+    "neighbor_overflow", "force_without_fluid",  "force_expired",    "viscosity_unsolved", "coincident_parted"};
 
 Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
 
@@ -205,7 +205,7 @@ std::span<const EffectInfo> effectCatalog() {
 
 bool effectEnabled(const WorldDescription& description, std::string_view name) {
   const auto row = std::find_if(kEffects.begin(), kEffects.end(), [name](const EffectRow& e) { return e.info.name == name; });
-  return row != kEffects.end() && row->enabled(description.effects);
+  return row != kEffects.end() && row->slot.present(description.effects);
 }
 
 }  // namespace bleedsim::sph

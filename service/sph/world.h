@@ -11,20 +11,13 @@
 #include <vector>
 
 #include "service/sph/command.h"
+#include "service/sph/simd_target.h"
 #include "service/sph/world_description.h"
 #include "service/status/status.h"
 
 namespace bleedsim::sph {
 
 enum class Precision { float32, float64 };  ///< float64 is the reference and runs on the scalar twin only
-enum class SimdTarget { automatic, scalar, avx2, avx512 };
-
-/// "auto", "scalar", "avx2", "avx512"
-std::string_view simdTargetName(SimdTarget target);
-/// not_found with the list of names if the name is unknown.
-Result<SimdTarget> parseSimdTarget(std::string_view name);
-/// The targets that this build holds and this machine can run, best first, scalar last.
-std::vector<SimdTarget> availableSimdTargets();
 
 struct WorldOptions {
   int threads = 1;  ///< 1..64; results are bit-equal for any value
@@ -55,6 +48,7 @@ enum class Counter {
   force_without_fluid,   ///< source-steps with no particle within reach
   force_expired,         ///< force sources that ended by their time
   viscosity_unsolved,    ///< steps whose implicit viscosity did not reach its tolerance
+  coincident_parted,     ///< particles that stood on another one's spot and were set apart
   count
 };
 std::string_view counterName(Counter counter);

@@ -16,6 +16,9 @@ namespace {
 // The implicit solve stays on until the explicit limit has left the others this far behind: it must not flicker.
 constexpr double kImplicitBand = 1.2;
 
+// How often particles on one spot are looked for. They come of bad seeding and of corners, so a few steps more do no harm.
+constexpr std::uint64_t kCoincidenceSteps = 32;
+
 // Below this a second thread costs more than it brings.
 constexpr std::uint32_t kParticlesForThreads = 2000;
 
@@ -42,7 +45,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
       domain_{inSupportRadii<Real>(description.domain.lower, h_), inSupportRadii<Real>(description.domain.upper, h_),
               description.domain.periodic},
       caps_{static_cast<Real>(2.0 * speed_of_sound_),
-            static_cast<Real>(6.25 * speed_of_sound_ * speed_of_sound_ / description.spacing)},
+            static_cast<Real>(kAccelerationBound * speed_of_sound_ * speed_of_sound_ / description.spacing)},
       limits_{timeStepLimits(description, speed_of_sound_)},
       executor_{makeExecutor(options.threads)},
       particles_{description.capacity, particleFields<Real>(description), 0},
@@ -54,6 +57,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
             kThroatMargin / description.support_ratio,
             options.threads,
             radiusBounds(description).largest},
+      coincidence_{1.0 / description.support_ratio, description.planar, options.threads},
       passes_{tables.passes,
               pairLayout(description),
               pairConstants<Real>(description, lattice, speed_of_sound_),
@@ -78,7 +82,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     opening_ = 1.0;
     literal_.emplace(description, lattice, speed_of_sound_, viscosityVaries(description), target);
   } else {
-    if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, target);
+    if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, tables.sweeps.shear_rate);
     if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
     if (effects.platelets) clotting_.emplace(*effects.platelets, description.spacing, description.rest_density, walls_.field());
   }
@@ -126,8 +130,7 @@ Status WorldCore<Real>::populate() {
   chooseShares();
   for (std::uint32_t i = 0; i < count_; ++i) grid_.cells()[i] = 0;
   // Implicit viscosity is no part of the accelerations, and these are the first ones.
-  solving_viscosity_ = implicit_viscosity_.has_value() && (description_.effects.viscosity->solve == ViscositySolve::implicit ||
-                                                           limits_.viscous < 0.4 * limits_.spacing / limits_.speed_of_sound);
+  solving_viscosity_ = mustSolveViscosity(acousticLimit(limits_.spacing, limits_.speed_of_sound));
   findNeighbors(boundsOf());
   computeAccelerations();
   finishStep(0.0);
@@ -292,6 +295,9 @@ void WorldCore<Real>::finishStep(double dt) {
     passes_.setReach(core_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
   }
   counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
+  if (steps_ % kCoincidenceSteps == 0) {
+    counter(Counter::coincident_parted) += coincidence_.part(grid_, particles_, count_, shares_, *executor_);
+  }
   counter(Counter::speed_clamped) += total.speed_clamped;
   counter(Counter::acceleration_clamped) += total.acceleration_clamped;
   max_speed_ = std::sqrt(static_cast<double>(total.max_speed2));
@@ -309,14 +315,18 @@ void WorldCore<Real>::chooseTimeStep(double before) {
   TimeStepLimits inviscid = limits_;
   inviscid.viscous = std::numeric_limits<double>::infinity();
   const double acceleration = std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2));
-  if (implicit_viscosity_) {
-    solving_viscosity_ =
-        description_.effects.viscosity->solve == ViscositySolve::implicit ||
-        limits_.viscous < (solving_viscosity_ ? kImplicitBand : 1.0) *
-                              stableTimeStep(inviscid, max_speed_, acceleration, std::numeric_limits<double>::infinity());
-    if (!solving_viscosity_) viscosity_iterations_ = 0;
-  }
+  solving_viscosity_ =
+      mustSolveViscosity(stableTimeStep(inviscid, max_speed_, acceleration, std::numeric_limits<double>::infinity()));
+  if (!solving_viscosity_) viscosity_iterations_ = 0;
   next_dt_ = stableTimeStep(solving_viscosity_ ? inviscid : limits_, max_speed_, acceleration, before);
+}
+
+/// Whether viscosity is solved implicitly where the step's other limits allow `other_limit`, s.
+template <class Real>
+bool WorldCore<Real>::mustSolveViscosity(double other_limit) const {
+  if (!implicit_viscosity_) return false;
+  if (description_.effects.viscosity->solve == ViscositySolve::implicit) return true;
+  return limits_.viscous < (solving_viscosity_ ? kImplicitBand : 1.0) * other_limit;
 }
 
 template <class Real>

@@ -19,6 +19,7 @@
 #include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/neighbors/cell_grid.h"
+#include "service/sph/neighbors/coincidence.h"
 #include "service/sph/particles.h"
 #include "service/sph/passes/pair_passes.h"
 #include "service/sph/rest_lattice.h"
@@ -73,6 +74,7 @@ class WorldCore final : public World {
   void finishStep(double dt);
   void solveViscosity(double dt);
   void chooseTimeStep(double before);
+  bool mustSolveViscosity(double other_limit) const;
 
   const Real* shearRates() const { return shear_rate_ ? shear_rate_->data() : nullptr; }
   void makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet);
@@ -96,6 +98,7 @@ class WorldCore final : public World {
   int shares_ = 1;
   Particles<Real> particles_, sorted_;
   CellGrid<Real> grid_;
+  Coincidence<Real> coincidence_;
   PairPasses<Real> passes_;
   WallEffects<Real> walls_;
   WoundSet wounds_;

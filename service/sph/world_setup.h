@@ -9,6 +9,7 @@
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/effects/rheology.h"
+#include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/literal_model.h"
 #include "service/sph/passes/pair_passes.h"
@@ -99,7 +100,7 @@ inline bool mayNeedImplicitViscosity(const WorldDescription& description, double
   if (description.kernel != KernelType::wendland_c2) return false;  // its sweeps are compiled for one kernel
   if (viscosity->solve == ViscositySolve::implicit) return true;
   const double viscous = diffusionLimit(description, largestPossibleViscosity(description) / description.rest_density);
-  return viscous < 0.4 * description.spacing / speed_of_sound;
+  return viscous < acousticLimit(description.spacing, speed_of_sound);
 }
 
 /// TimeStepLimits::contact: 0.1 where a touching pair is as stiff as with the default settings, shorter as the frequency of a
@@ -111,6 +112,31 @@ inline double contactLimit(const std::optional<RepulsionSettings>& repulsion) {
   };
   const double harder = stiffness(*repulsion) / stiffness(RepulsionSettings{});
   return harder > 1.0 ? 0.1 / std::sqrt(harder) : 0.1;
+}
+
+/// The largest pe that a pair feels: where its push, D* (pe^n1 - pe^n2) pe^2/(contact distance/dx)^2 c0^2/dx, is 0.85 of the
+/// bound on accelerations, and at most 2. The bound acts on one particle alone and so takes momentum: a pair by itself must not
+/// reach it. Not less, because at 0.75 a collision at c0 comes to where the push stops growing, and finite steps gain energy
+/// there.
+inline double contactOverlap(const RepulsionSettings& repulsion) {
+  const auto power = [](double base, int exponent) {  // libm's pow has other bits on other machines
+    double result = base;
+    for (int k = 1; k < exponent; ++k) result *= base;
+    return result;
+  };
+  const auto push = [&](double pe) {
+    return repulsion.strength * (power(pe, repulsion.power_1) - power(pe, repulsion.power_2)) * pe * pe /
+           (repulsion.contact_distance * repulsion.contact_distance);
+  };
+  constexpr double kMost = 0.85 * kAccelerationBound;
+  double below = 1.0;
+  double above = 2.0;
+  if (push(above) <= kMost) return above;
+  for (int k = 0; k < 50; ++k) {
+    const double middle = 0.5 * (below + above);
+    (push(middle) <= kMost ? below : above) = middle;
+  }
+  return below;
 }
 
 inline TimeStepLimits timeStepLimits(const WorldDescription& description, double speed_of_sound) {
@@ -175,6 +201,7 @@ PairConstants<Real> pairConstants(const WorldDescription& description, const Res
     constants.repulsion_scale =
         static_cast<Real>(repulsion->strength * speed_of_sound * speed_of_sound * description.spacing / (h * h));
     constants.repulsion_contact = static_cast<Real>(repulsion->contact_distance * description.spacing / h);
+    constants.repulsion_overlap = static_cast<Real>(contactOverlap(*repulsion));
     constants.repulsion_damping = static_cast<Real>(repulsion->damping * speed_of_sound / description.spacing);
     constants.repulsion_powers[0] = repulsion->power_1;
     constants.repulsion_powers[1] = repulsion->power_2;

@@ -5,26 +5,19 @@
 
 #include "service/sph/rest_lattice.h"
 #include "service/sph/smoothing_kernel.h"
+#include "service/sph/world_setup.h"
+#include "tests/support/nearest_offset.h"
 
 namespace bleedsim::test {
 namespace {
 
 using sph::Vec3;
 
-Vec3 nearestOffset(const sph::Domain& domain, Vec3 offset) {
-  for (Eigen::Index a = 0; a < 3; ++a) {
-    if (!domain.periodic[static_cast<std::size_t>(a)]) continue;
-    const double side = domain.upper[a] - domain.lower[a];
-    offset[a] -= side * std::round(offset[a] / side);
-  }
-  return offset;
-}
-
 /// Of a pair, on the first: `offset` from the second to the first, `velocity` of the first against the second.
 Vec3 repulsionOf(const sph::WorldDescription& d, double c0, const Vec3& offset, const Vec3& velocity) {
   const sph::RepulsionSettings& settings = *d.effects.repulsion;
   const double contact = settings.contact_distance * d.spacing;
-  const double distance = std::max(offset.norm(), contact / 2.0);
+  const double distance = std::max(offset.norm(), contact / sph::contactOverlap(settings));
   const double pe = contact / distance;
   if (pe < 1.0) return Vec3::Zero();
   const Vec3 direction = offset.normalized();

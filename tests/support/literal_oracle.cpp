@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "service/sph/smoothing_kernel.h"
+#include "tests/support/nearest_offset.h"
 
 namespace bleedsim::test {
 namespace {
@@ -23,15 +24,6 @@ double calibratedMass(const sph::WorldDescription& d, const SmoothingKernel& den
     }
   }
   return d.rest_density / sum;
-}
-
-Vec3 nearestOffset(const sph::Domain& domain, Vec3 offset) {
-  for (Eigen::Index a = 0; a < 3; ++a) {
-    if (!domain.periodic[static_cast<std::size_t>(a)]) continue;
-    const double side = domain.upper[a] - domain.lower[a];
-    offset[a] -= side * std::round(offset[a] / side);
-  }
-  return offset;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "service/sph/rest_lattice.h"
 #include "service/sph/smoothing_kernel.h"
+#include "tests/support/nearest_offset.h"
 
 namespace bleedsim::test {
 namespace {
@@ -21,12 +22,7 @@ class Oracle {
     return sph::calibrateRestLattice({d_.kernel, h()}, d_.spacing, d_.rest_density).particle_mass / d_.rest_density;
   }
   Vec3 offset(std::size_t i, std::size_t j) const {
-    Vec3 r = particles_.position[i] - particles_.position[j];
-    for (Eigen::Index a = 0; a < 3; ++a) {
-      const double side = d_.domain.upper[a] - d_.domain.lower[a];
-      if (d_.domain.periodic[static_cast<std::size_t>(a)]) r[a] -= side * std::round(r[a] / side);
-    }
-    return r;
+    return nearestOffset(d_.domain, particles_.position[i] - particles_.position[j]);
   }
   double weight(std::size_t i, std::size_t j) const {
     const double r = offset(i, j).norm();

@@ -106,12 +106,11 @@ class ImplicitViscosity {
   /// With v* as the start the residual is dt D v*; its fourth place holds the diagonal of the matrix. Returns |v*|^2.
   double start(const Sweep& s) {
     const Particles<Real>& p = s.particles;
-    sumOf(s, [&](std::uint32_t i) {
+    forEach(s, [&](std::uint32_t i) {
       Real* vector = s.passes.record(i) + kRecordVx;
       vector[0] = p.vx[i];
       vector[1] = p.vy[i];
       vector[2] = p.vz[i];
-      return 0.0;
     });
     multiply(s);
     return sumOf(s, [&](std::uint32_t i) {
@@ -125,10 +124,9 @@ class ImplicitViscosity {
 
   /// The next direction, into the records: the preconditioned residual and `keep` of the one before.
   void turn(const Sweep& s, Real keep) {
-    sumOf(s, [&](std::uint32_t i) {
+    forEach(s, [&](std::uint32_t i) {
       Real* vector = s.passes.record(i) + kRecordVx;
       for (std::size_t k = 0; k < 3; ++k) vector[k] = residualOf(i)[k] / residualOf(i)[3] + keep * vector[k];
-      return 0.0;
     });
   }
 
@@ -164,6 +162,14 @@ class ImplicitViscosity {
       p.vz[i] += length * vector[2];
       for (std::size_t k = 0; k < 3; ++k) residualOf(i)[k] -= length * productOf(i)[k];
       return square(residualOf(i));
+    });
+  }
+
+  template <class Visit>
+  static void forEach(const Sweep& s, const Visit& visit) {
+    s.executor.run(s.shares, [&](int share) {
+      const ShareRange range{s.count, share, s.shares};
+      for (std::uint32_t i = range.begin; i < range.end; ++i) visit(i);
     });
   }
 

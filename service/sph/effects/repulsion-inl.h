@@ -4,7 +4,8 @@
 //   pe = (r_i + r_j)/d >= 1:   f_i = D (pe^n1 - pe^n2)/d^2 along x_i - x_j, else 0
 // terms: D N m^2; r contact radius m; d distance m. Here a_i = D* c0^2 dx (pe^n1 - pe^n2)/d^2 with D* = D/(m c0^2 dx), which
 // is 1.5 where the contact is as stiff as the fluid.
-// Deviation from the paper: D has a scale; pe is capped at 2 (and d with it), beyond which the force stays; a damping
+// Deviation from the paper: D has a scale; pe is capped (and d with it) at 2 or where a pair comes near the bound on
+// accelerations (contactOverlap), beyond which the force stays, so that the cap keeps momentum; a damping
 // a_i -= g (pe - 1) (v_ij . e) e takes the energy that a finite time step would pump into contacts.
 #if defined(BLEEDSIM_SPH_EFFECTS_REPULSION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BLEEDSIM_SPH_EFFECTS_REPULSION_INL_H_
@@ -35,7 +36,7 @@ class Repulsion {
     const V one = L::set(Real(1));
     // A particle is its own neighbour: at zero distance there is no direction and so no force.
     const V inverse_distance = one / L::sqrt(L::max(p.q2, L::set(Real(1e-12))));
-    const V inverse_capped = L::min(inverse_distance, L::set(Real(2) / job_.repulsion_contact));
+    const V inverse_capped = L::min(inverse_distance, L::set(job_.repulsion_overlap / job_.repulsion_contact));
     const V pe = L::max(contact * inverse_capped, one);
     const V strength = L::max(power(pe, job_.repulsion_powers[0]) - power(pe, job_.repulsion_powers[1]), zero);
     const V push = L::set(job_.repulsion_scale) * strength * (inverse_capped * inverse_capped);

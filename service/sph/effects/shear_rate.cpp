@@ -3,22 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 
 namespace bleedsim::sph {
-namespace {
-
-template <class Real>
-const SweepTable<Real>& sweepTable(const WorldDescription& description, [[maybe_unused]] SimdTarget target) {
-  const auto& periodic = description.domain.periodic;
-  const SweepChoice choice{periodic[0] || periodic[1] || periodic[2], description.effects.core_radius.has_value()};
-  if constexpr (std::is_same_v<Real, double>)
-    return referenceSweeps(choice);
-  else
-    return *findSweeps(target, choice);
-}
-
-}  // namespace
 
 bool shearRateNeeded(const EffectSettings& effects) {
   const bool thins = effects.viscosity && !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology);
@@ -28,8 +14,9 @@ bool shearRateNeeded(const EffectSettings& effects) {
 }
 
 template <class Real>
-ShearRate<Real>::ShearRate(const WorldDescription& description, const RestLattice& lattice, SimdTarget target)
-    : sweep_{sweepTable<Real>(description, target).shear_rate},
+ShearRate<Real>::ShearRate(const WorldDescription& description, const RestLattice& lattice,
+                           SweepFunction<ShearRateJob<Real>> sweep)
+    : sweep_{sweep},
       h_{static_cast<Real>(description.supportRadius())},
       least_distance_{static_cast<Real>(0.25 / description.support_ratio)},
       scale_{static_cast<Real>(kernelNorms(KernelType::wendland_c2).gradient * lattice.particle_mass /

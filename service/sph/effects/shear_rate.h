@@ -35,8 +35,8 @@ bool shearRateNeeded(const EffectSettings& effects);
 template <class Real>
 class ShearRate {
  public:
-  /// `target` as of the world; in double precision the scalar twin.
-  ShearRate(const WorldDescription& description, const RestLattice& lattice, SimdTarget target);
+  /// `sweep` as of the world's tables.
+  ShearRate(const WorldDescription& description, const RestLattice& lattice, SweepFunction<ShearRateJob<Real>> sweep);
 
   /// After density: from the records and the walls that were sampled with the same `shares`.
   void update(const CellGrid<Real>& grid, const Particles<Real>& p, const WallEffects<Real>& walls, PairPasses<Real>& passes,

@@ -73,6 +73,9 @@ DriftResult<Real> kickAndDrift(Particles<Real>& p, const Real* acceleration, Rea
   return result;
 }
 
+/// Bound on accelerations, in c0^2/dx.
+constexpr double kAccelerationBound = 6.25;
+
 /// Bounds that keep a step sane whatever acts; each use is counted. v_cap = 2 c0; a_cap halves no dt below a quarter of the
 /// acoustic one: 0.25 sqrt(dx/a_cap) = 0.1 dx/c0.
 template <class Real>

@@ -28,6 +28,7 @@ struct PairConstants {
   Real platelet_scale = 0;
   Real repulsion_scale = 0;
   Real repulsion_contact = 0;
+  Real repulsion_overlap = 2;
   Real repulsion_damping = 0;
   int repulsion_powers[2] = {6, 4};
 };
@@ -144,6 +145,7 @@ class PairPasses {
     job.platelet_scale = constants_.platelet_scale;
     job.repulsion_scale = growth_ * growth_ * growth_ * constants_.repulsion_scale;
     job.repulsion_contact = growth_ * constants_.repulsion_contact;
+    job.repulsion_overlap = constants_.repulsion_overlap;
     job.repulsion_damping = constants_.repulsion_damping;
     std::copy_n(constants_.repulsion_powers, 2, job.repulsion_powers);
     job.acceleration = acceleration_.data();

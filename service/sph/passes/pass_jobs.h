@@ -68,6 +68,7 @@ struct ForceJob : SweepJob<Real> {
   Real platelet_scale = 0;     ///< K k/2, m^3/(kg s)
   Real repulsion_scale = 0;    ///< D* c0^2 dx/h^2, m/s^2
   Real repulsion_contact = 0;  ///< distance at which particles touch, /h
+  Real repulsion_overlap = 2;  ///< largest pe: deeper in, the push stays
   Real repulsion_damping = 0;  ///< 1/s
   int repulsion_powers[2] = {6, 4};
   Real* acceleration = nullptr;  ///< 4 per particle: x, y, z in m/s^2; the platelets' rate, 1/s

@@ -6,8 +6,8 @@
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/passes/pass_jobs.h"
+#include "service/sph/simd_target.h"
 #include "service/sph/smoothing_kernel.h"
-#include "service/sph/world.h"
 
 namespace bleedsim::sph {
 

@@ -3,7 +3,7 @@
 
 #include <hwy/targets.h>
 
-#include "service/sph/world.h"
+#include "service/sph/simd_target.h"
 
 namespace bleedsim::sph {
 namespace {

@@ -1,10 +1,11 @@
+#include "service/sph/simd_target.h"
+
 #include <algorithm>
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 
 #include "service/sph/passes/float_tables.h"
 #include "service/sph/passes/literal_table.h"
-#include "service/sph/world.h"
 
 namespace bleedsim::sph {
 

@@ -136,9 +136,9 @@ TEST(DecideImplicitViscosity, LooksAtTheThickestBlood) {
 TEST(ApplyAuto, LeavesOutOnlyWhatItWasAskedAbout) {
   sph::WorldDescription world = withWound(0.05);
   world.effects.viscosity.emplace();
-  EXPECT_THAT(applyAuto({}, {}, world), IsEmpty());
+  EXPECT_THAT(applyAuto({}, {}, {}, world), IsEmpty());
   EXPECT_TRUE(world.effects.surface_tension.has_value());
-  const auto decisions = applyAuto(autoNames(), {}, world);
+  const auto decisions = applyAuto(autoNames(), {}, {}, world);
   ASSERT_EQ(decisions.size(), 2u) << "there are no platelets";
   EXPECT_FALSE(world.effects.surface_tension.has_value());
   EXPECT_EQ(world.effects.viscosity->solve, sph::ViscositySolve::explicit_);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <optional>
 
 #include "effects_text.h"
 #include "scene_text.h"
@@ -12,6 +13,7 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -21,14 +23,14 @@ SceneDescription parsed(const std::string& text) {
   return scene.ok() ? *scene : SceneDescription{};
 }
 
-SceneDescription changed(const SceneDescription& scene, const EffectChange& change) {
-  Result<SceneDescription> result = changeEffect(scene, change);
+SceneDescription changed(const SceneDescription& scene, const EffectChange& change, std::optional<double> speed_of_sound = {}) {
+  Result<SceneDescription> result = changeEffect(scene, change, speed_of_sound.value_or(sph::speedOfSound(scene.world)));
   EXPECT_TRUE(result.ok()) << change.name << ": " << result.status().message();
   return result.ok() ? *result : scene;
 }
 
 Status refusal(const SceneDescription& scene, const EffectChange& change) {
-  const Status status = changeEffect(scene, change).status();
+  const Status status = changeEffect(scene, change, sph::speedOfSound(scene.world)).status();
   EXPECT_FALSE(status.ok());
   return status;
 }
@@ -99,6 +101,22 @@ TEST(ChangeEffect, AHandOverrulesAuto) {
   EXPECT_TRUE(on.world.effects.platelets.has_value());
   EXPECT_EQ(on.world.effects.platelets->clot_speedup, 50.0);
   EXPECT_THAT(on.decisions, testing::IsEmpty());
+}
+
+// The explicit limit is 0.045 h^2 rho/mu = 0.045 (4 mm)^2 1060/1.5 = 0.51 ms; 0.4 dx/c0 is 0.27 ms at the scene's 3 m/s and 0.8
+// ms at 1 m/s, at which a session may run that began without gravity's fall or a wound's pressure.
+TEST(ChangeEffect, AutoDecidesByTheSpeedOfSoundThatTheSessionRunsAt) {
+  const SceneDescription start =
+      parsed(std::string{kLeastScene} + "effects { viscosity { viscosity_pa_s: 1.5 } auto: \"implicit_viscosity\" }");
+  ASSERT_NEAR(sph::speedOfSound(start.world), 3.0, 1e-9);
+  ASSERT_EQ(start.world.effects.viscosity->solve, sph::ViscositySolve::explicit_);
+  const EffectChange gravity{"gravity", true, ""};
+  const SceneDescription same = changed(start, gravity, 3.0);
+  EXPECT_EQ(same.world.effects.viscosity->solve, sph::ViscositySolve::explicit_);
+  EXPECT_THAT(same.decisions, ElementsAre(HasSubstr("implicit_viscosity off: the explicit limit, 0.509 ms")));
+  const SceneDescription slower = changed(start, gravity, 1.0);
+  EXPECT_EQ(slower.world.effects.viscosity->solve, sph::ViscositySolve::automatic);
+  EXPECT_THAT(slower.decisions, ElementsAre(AllOf(HasSubstr("implicit_viscosity stays on"), HasSubstr("0.8 ms"))));
 }
 
 }  // namespace

@@ -157,6 +157,27 @@ TEST(AdoptState, TheNextStepObeysTheNewLimits) {
   EXPECT_LE(test::statsOf(*heir).dt, 0.045 * h * h * thick.rest_density / 50.0 * (1.0 + 1e-12));
 }
 
+TEST(AdoptState, AnImplicitSolveEndsWhereTheNewWorldHasNone) {
+  WorldDescription description = pool();
+  description.effects.viscosity->solve = ViscositySolve::implicit;
+  description.effects.viscosity->viscosity = 5.0;
+  for (const bool viscous : {true, false}) {
+    SCOPED_TRACE(viscous);
+    const auto old = test::makeWorld(description, {});
+    stir(*old);
+    step(*old, 5);
+    ASSERT_GT(test::statsOf(*old).viscosity_iterations, 0);
+    WorldDescription other = description;
+    other.effects.viscosity->solve = ViscositySolve::explicit_;
+    if (!viscous) other.effects.viscosity.reset();
+    const auto heir = test::makeWorld(other, {});
+    ASSERT_TRUE(heir->adopt(*old).ok());
+    step(*heir, 5);
+    EXPECT_EQ(test::statsOf(*heir).viscosity_iterations, 0);
+    EXPECT_FALSE(heir->faulted());
+  }
+}
+
 TEST(AdoptState, BloodFollowsItsDefaultAndAFluidBlockKeepsItsOwn) {
   WorldDescription description = pool();
   FluidBlock thick;

@@ -14,6 +14,7 @@
 #include "service/sph/seeding.h"
 #include "service/sph/world_setup.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/compiled_tables.h"
 #include "tests/support/scenes.h"
 
 namespace bleedsim::sph {
@@ -36,7 +37,7 @@ class PassRig {
               0.0,
               shares,
               radiusBounds(description).largest},
-        passes_{tableOf(description, target),
+        passes_{test::passesOf<Real>(description, target),
                 layoutOf(description),
                 pairConstants<Real>(description, latticeOf(description), speedOfSound(description)),
                 capacity_,
@@ -69,7 +70,7 @@ class PassRig {
 
   /// The product of the implicit viscosity with the velocities, m/s^2, and its mean diagonal in `diagonal`.
   std::vector<Vec3> viscousProduct(SimdTarget target, const WorldDescription& description, std::vector<double>& diagonal) {
-    const auto& sweeps = sweepsOf(description, target);
+    const auto& sweeps = test::sweepsOf<Real>(sweepChoice(description), target);
     ViscousProductJob<Real> job;
     job.scale = Real(5) * pairConstants<Real>(description, latticeOf(description), speedOfSound(description)).viscosity_scale;
     std::vector<Real> product(std::size_t{capacity_} * 4);
@@ -87,18 +88,6 @@ class PassRig {
   }
 
  private:
-  static const PassTable<Real>& tableOf(const WorldDescription& description, [[maybe_unused]] SimdTarget target) {
-    if constexpr (std::is_same_v<Real, double>)
-      return referencePasses(passChoice(description));
-    else
-      return *findPasses(target, passChoice(description));
-  }
-  static const SweepTable<Real>& sweepsOf(const WorldDescription& description, [[maybe_unused]] SimdTarget target) {
-    if constexpr (std::is_same_v<Real, double>)
-      return referenceSweeps(sweepChoice(description));
-    else
-      return *findSweeps(target, sweepChoice(description));
-  }
   static std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
   static RestLattice latticeOf(const WorldDescription& d) {
     return calibrateRestLattice(d.densityKernel(), d.spacing, d.rest_density);

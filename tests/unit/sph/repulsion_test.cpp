@@ -120,12 +120,50 @@ TEST(Repulsion, ShortensTheTimeStep) {
   EXPECT_NEAR(step_of(description), 0.1 / 3.0 * unit, 1e-6 * unit) << "two particles may close at twice the largest speed";
 }
 
-TEST(Repulsion, ParticlesOnOneSpotStayFinite) {
+// push(pe) = D* (pe^n1 - pe^n2) pe^2/(contact distance)^2 is 0.85 6.25 c0^2/dx there, or pe is 2.
+TEST(Repulsion, APairStaysBelowTheBoundOnAccelerations) {
+  for (const RepulsionSettings& settings :
+       {RepulsionSettings{}, RepulsionSettings{.strength = 100.0}, RepulsionSettings{.contact_distance = 0.5, .power_1 = 16}}) {
+    const double pe = contactOverlap(settings);
+    EXPECT_LT(pe, 2.0);
+    const double push = settings.strength * (std::pow(pe, settings.power_1) - std::pow(pe, settings.power_2)) * pe * pe /
+                        (settings.contact_distance * settings.contact_distance);
+    EXPECT_NEAR(push, 5.3125, 1e-6);
+  }
+  EXPECT_EQ(contactOverlap({.strength = 0.01}), 2.0);
+  EXPECT_EQ(contactOverlap({.strength = 0.0}), 2.0);
+}
+
+// Two lopsided lattices in each other: a bound on single particles takes momentum, one on pairs does not.
+TEST(Repulsion, DeepContactsKeepMomentum) {
+  WorldDescription description = test::emptyScene();
+  description.effects.repulsion.emplace();
+  FluidBlock block;
+  block.lower = Vec3::Zero();
+  block.upper = test::kSpacing * Vec3{4, 4, 4};
+  description.fluid_blocks.push_back(block);
+  block.lower += test::kSpacing * Vec3{0.35, 0.2, 0.1};
+  block.upper += test::kSpacing * Vec3{0.35, 0.2, -1.9};
+  description.fluid_blocks.push_back(block);
+  const auto world = test::makeWorld(description);
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(world->step(1.0).ok());
+  const FrameBuffer frame = test::frameOf(*world);
+  double flow = 0.0;
+  for (std::size_t i = 0; i < frame.count; ++i) flow += world->particleMass() * test::velocityOf(frame, i).norm();
+  RecordProperty("drift_1e9", std::to_string(1e9 * test::statsOf(*world).momentum.norm() / flow));
+  RecordProperty("clamped", std::to_string(test::counterOf(*world, Counter::acceleration_clamped)));
+  EXPECT_LT(test::statsOf(*world).momentum.norm(), 1e-6 * flow);
+}
+
+TEST(Repulsion, ParticlesOnOneSpotAreParted) {
   WorldDescription description = collision(1e-12, 0.0, {});
   description.effects.pressure.emplace();
   const auto world = test::makeWorld(description);
   for (int k = 0; k < 100; ++k) ASSERT_TRUE(world->step(1.0).ok());
   EXPECT_FALSE(world->faulted());
+  EXPECT_EQ(test::counterOf(*world, Counter::coincident_parted), 2u);
+  const FrameBuffer frame = test::frameOf(*world);
+  EXPECT_GT((test::positionOf(frame, 0) - test::positionOf(frame, 1)).norm(), 0.9 * test::kSpacing);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "service/sph/effects/surface_tension.h"
 #include "service/sph/world_setup.h"
+#include "tests/support/compiled_tables.h"
 #include "tests/support/tension_oracle.h"
 
 namespace bleedsim::sph {
@@ -31,7 +32,7 @@ class TensionRig {
               description.domain.periodic,
               0.0,
               shares},
-        passes_{tableOf(description, target),
+        passes_{test::passesOf<Real>(description, target),
                 {.set = {}, .tissue = !description.tissue.empty(), .tension = true},
                 pairConstants<Real>(description, lattice_, speedOfSound(description)),
                 count_,
@@ -44,7 +45,7 @@ class TensionRig {
                wallConstants<Real>(description, lattice_, speedOfSound(description)), count_, shares},
         wounds_{description, speedOfSound(description)},
         tension_{*description.effects.surface_tension,
-                 sweepsOf(target, {isPeriodic(), !radius.empty()}),
+                 test::sweepsOf<Real>({isPeriodic(), !radius.empty()}, target),
                  lattice_.particle_mass,
                  description.rest_density,
                  h_,
@@ -81,18 +82,6 @@ class TensionRig {
 
  private:
   bool isPeriodic() const { return passChoice(description_).periodic; }
-  static const SweepTable<Real>& sweepsOf([[maybe_unused]] SimdTarget target, const SweepChoice& choice) {
-    if constexpr (std::is_same_v<Real, double>)
-      return referenceSweeps(choice);
-    else
-      return *findSweeps(target, choice);
-  }
-  static const PassTable<Real>& tableOf(const WorldDescription& description, [[maybe_unused]] SimdTarget target) {
-    if constexpr (std::is_same_v<Real, double>)
-      return referencePasses(passChoice(description));
-    else
-      return *findPasses(target, passChoice(description));
-  }
   static std::array<double, 3> asArray(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
   void place(std::uint32_t i, const test::OracleParticles& particles, const std::vector<double>& radius) {
