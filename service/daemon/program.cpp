@@ -16,6 +16,7 @@ void logStart(const ServiceOptions& options, const Service& service, const scene
                transport::toString(identity.uuid), options.participant.domain,
                options.participant.interface.empty() ? "loopback" : options.participant.interface);
   spdlog::info("scene '{}', capacity {} particles, SIMD target {}", scene.name, scene.world.capacity, simd);
+  for (const std::string& warning : scene.warnings) spdlog::warn("{}", warning);
 }
 
 /// Of a service that could not start or did not end as asked.

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "service/scene/auto_effects.h"
 #include "service/scene/scene.h"
 
 namespace bleedsim::scene {
@@ -15,10 +16,13 @@ struct EffectChange {
   std::string settings;
 };
 
-/// The scene as it reads with the change, in a session that runs at `speed_of_sound`, m/s. not_found: no such effect, with the
-/// list; invalid_argument: the first problem of the settings or of the combination, short enough for a reply. An effect that goes
-/// off takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves effects.auto: who
+/// The scene as it reads with the change, in the session that runs it. not_found: no such effect, with the list;
+/// invalid_argument: the first problem of the settings or of the combination, short enough for a reply. An effect that goes off
+/// takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves effects.auto: who
 /// switches by hand has decided.
-Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change, double speed_of_sound);
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change, const Session& session);
+
+/// The scene with the decisions of effects.auto taken anew, because the session knows more than it did.
+Result<SceneDescription> decideAgain(const SceneDescription& scene, const Session& session);
 
 }  // namespace bleedsim::scene

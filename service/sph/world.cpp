@@ -9,6 +9,7 @@
 #include "service/sph/effects/literal_list.h"
 #include "service/sph/effects/platelets.h"
 #include "service/sph/effects/rheology.h"
+#include "service/sph/model_rules.h"
 #include "service/sph/seeding.h"
 #include "service/sph/world_checks.h"
 #include "service/sph/world_core.h"
@@ -88,8 +89,7 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
     return invalid("the sound model's kernel must be Wendland C2 or the cubic spline");
   }
   if (Status status = checkEffects(d.effects); !status.ok()) return status;
-  if (Status status = checkLiteral(d); !status.ok()) return status;
-  if (Status status = checkPlanar(d); !status.ok()) return status;
+  if (Status status = checkModel(d); !status.ok()) return status;
   if (Status status = checkEffectSet(d); !status.ok()) return status;
   const double h = d.supportRadius();
   const double c0 = options.speed_of_sound.value_or(speedOfSound(d));

@@ -173,7 +173,7 @@ TEST_F(ServiceTest, DecisionsOfAutoAreToldAtLoad) {
   EXPECT_THAT(head.text, HasSubstr("platelets {"));
   const StatusHead status = probe.status();
   EXPECT_THAT(status.text, HasSubstr("auto: platelets off: the horizon, 0.01 s, is below 1 %"));
-  EXPECT_THAT(status.text, HasSubstr("auto: surface_tension stays on: the smallest feature, wounds[0] of 6 mm"));
+  EXPECT_THAT(status.text, HasSubstr("auto: surface_tension on: the smallest feature, wounds[0] of 6 mm"));
   const bleed_v1_Journal entry =
       probe.journal([](const bleed_v1_Journal& journal) { return journal.body._d == bleed_v1_JOURNAL_DECISION; });
   EXPECT_EQ(entry.step, 0U);

@@ -150,7 +150,7 @@ TEST(ParseScene, TellsItsDecisions) {
   const Result<SceneDescription> scene = parseScene(text);
   ASSERT_TRUE(scene.ok()) << scene.status().message();
   ASSERT_EQ(scene->decisions.size(), 2u);
-  EXPECT_THAT(scene->decisions[0], HasSubstr("auto: surface_tension stays on: the smallest feature"));
+  EXPECT_THAT(scene->decisions[0], HasSubstr("auto: surface_tension on: the smallest feature"));
   EXPECT_THAT(scene->decisions[1], HasSubstr("auto: platelets off: the horizon, 0.001 s"));
   EXPECT_FALSE(scene->world.effects.platelets.has_value());
   EXPECT_THAT(scene->effects, testing::Not(testing::Contains("platelets")));
