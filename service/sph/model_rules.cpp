@@ -29,6 +29,11 @@ class Problems {
 bool isPositive(double value) { return value > 0.0 && std::isfinite(value); }
 bool isNotNegative(double value) { return value >= 0.0 && std::isfinite(value); }
 
+std::string_view rheologyField(const ViscositySettings& viscosity) {
+  return std::holds_alternative<CassonRheology>(viscosity.rheology) ? "effects.viscosity.casson"
+                                                                    : "effects.viscosity.carreau_yasuda";
+}
+
 void findLiteralNumbers(const WorldDescription& d, Problems& problems) {
   const LiteralSettings& s = d.literal;
   if (s.stiffness && !isPositive(*s.stiffness)) problems.invalid("literal.stiffness", "must be greater than 0 m^2/s^2");
@@ -79,8 +84,8 @@ std::vector<ModelProblem> literalProblems(const WorldDescription& d) {
   }
   if (const auto& viscosity = effects.viscosity) {
     if (!std::holds_alternative<NewtonianRheology>(viscosity->rheology)) {
-      problems.unsupported("effects.viscosity",
-                           "Newtonian in model LITERAL, because the paper's mu knows no shear rate; set viscosity_pa_s");
+      problems.unsupported(rheologyField(*viscosity),
+                           "not in model LITERAL, because the paper's mu knows no shear rate; set viscosity_pa_s");
     }
     if (viscosity->solve == ViscositySolve::implicit) {
       problems.unsupported("effects.viscosity.solve", "no implicit solve in model LITERAL, because the printed (25) is a pair sum; drop it");
@@ -120,8 +125,8 @@ std::vector<ModelProblem> planarProblems(const WorldDescription& d) {
       problems.unsupported("effects.adhesion", "not in a planar world, because there is no tissue to stick to; drop it");
     }
     if (effects.viscosity && !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology)) {
-      problems.unsupported("effects.viscosity",
-                           "Newtonian in a planar world, because the shear rate is summed in space; set viscosity_pa_s");
+      problems.unsupported(rheologyField(*effects.viscosity),
+                           "not in a planar world, because the shear rate is summed in space; set viscosity_pa_s");
     }
     if (effects.viscosity && effects.viscosity->solve == ViscositySolve::implicit) {
       problems.unsupported("effects.viscosity.solve",

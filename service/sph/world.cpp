@@ -193,19 +193,25 @@ std::string_view counterName(Counter counter) { return kCounterNames[static_cast
 
 std::span<const EffectInfo> effectCatalog() {
   static constexpr auto kCatalog = [] {
-    std::array<EffectInfo, kEffects.size()> catalog{};
+    std::array<EffectInfo, kEffects.size() + kEffectParts.size()> catalog{};
     for (std::size_t i = 0; i < kEffects.size(); ++i) {
       catalog[i] = kEffects[i].info;
       catalog[i].literal = literalText(catalog[i].name);
     }
+    for (std::size_t i = 0; i < kEffectParts.size(); ++i) catalog[kEffects.size() + i] = kEffectParts[i].info;
     return catalog;
   }();
   return kCatalog;
 }
 
 bool effectEnabled(const WorldDescription& description, std::string_view name) {
-  const auto row = std::find_if(kEffects.begin(), kEffects.end(), [name](const EffectRow& e) { return e.info.name == name; });
-  return row != kEffects.end() && row->slot.present(description.effects);
+  for (const EffectRow& row : kEffects) {
+    if (row.info.name == name) return row.slot.present(description.effects);
+  }
+  for (const PartRow& row : kEffectParts) {
+    if (row.info.name == name) return row.acts(description);
+  }
+  return false;
 }
 
 }  // namespace bleedsim::sph

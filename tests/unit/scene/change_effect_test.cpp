@@ -24,13 +24,13 @@ SceneDescription parsed(const std::string& text) {
 }
 
 SceneDescription changed(const SceneDescription& scene, const EffectChange& change, std::optional<double> speed_of_sound = {}) {
-  Result<SceneDescription> result = changeEffect(scene, change, speed_of_sound.value_or(sph::speedOfSound(scene.world)));
+  Result<SceneDescription> result = changeEffect(scene, change, {.speed_of_sound = speed_of_sound.value_or(sph::speedOfSound(scene.world))});
   EXPECT_TRUE(result.ok()) << change.name << ": " << result.status().message();
   return result.ok() ? *result : scene;
 }
 
 Status refusal(const SceneDescription& scene, const EffectChange& change) {
-  const Status status = changeEffect(scene, change, sph::speedOfSound(scene.world)).status();
+  const Status status = changeEffect(scene, change, {.speed_of_sound = sph::speedOfSound(scene.world)}).status();
   EXPECT_FALSE(status.ok());
   return status;
 }

@@ -118,7 +118,8 @@ TEST(SceneEffects, RoundTripThroughTheNormalisedText) {
 }
 
 TEST(SceneEffects, AreNamedAsTheSolverNamesThem) {
-  const std::vector<std::string> known = knownEffects();
+  std::vector<std::string> known = knownEffects();
+  known.insert(known.end(), {"wetting", "slip"});  // by settings of others
   for (const sph::EffectInfo& row : sph::effectCatalog()) {
     EXPECT_THAT(known, testing::Contains(std::string{row.name})) << "an effect of the solver that no scene can ask for";
   }
@@ -192,13 +193,12 @@ const std::vector<Rule>& rules() {
       // combinations
       {"tissue { plane { normal { z: 1 } } }", "", "effects.adhesion: needs tissue"},
       {"tissue { plane { normal { z: 1 } } }", "", "effects.surface_tension.contact_angle_deg: needs tissue"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.surface_tension: needs resolution.kernel WENDLAND_C2"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.platelets: needs resolution.kernel WENDLAND_C2"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.core_radius: needs resolution.kernel WENDLAND_C2"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.repulsion: needs resolution.kernel WENDLAND_C2"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.adhesion: needs resolution.kernel WENDLAND_C2"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.viscosity.carreau_yasuda: needs resolution.kernel WENDLAND_C2"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.viscosity.solve: needs resolution.kernel WENDLAND_C2"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.surface_tension: needs kernel WENDLAND_C2, because its factor and cut-off are fitted with it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.platelets: needs kernel WENDLAND_C2, because the spline's sums are built without it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.core_radius: needs kernel WENDLAND_C2, because the spline's sums are built without it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.repulsion: needs kernel WENDLAND_C2, because the spline's sums are built without it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.viscosity.carreau_yasuda: needs kernel WENDLAND_C2, because the shear rate is summed with it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.viscosity.solve: needs kernel WENDLAND_C2, because the implicit sweeps are made for it"},
       {"kernel: WENDLAND_C2", "kernel: 4", "resolution.kernel: value 4 is unknown, known are WENDLAND_C2, CUBIC_SPLINE"},
       // output
       {"core_radius { smallest: 0.8 largest: 1.2 relaxation: 0.2 }", "",
@@ -216,7 +216,43 @@ const std::vector<Rule>& rules() {
       {"model: SOUND", "model: LITERAL literal { contact_radius: 0.6 }",
        "literal.contact_radius: value 0.6 is out of range, allowed 0.05 to 0.5 (spacings)"},
       {"model: SOUND", "model: LITERAL literal { power_1: 4 power_2: 4 }", "literal.power_1: value 4 must be above power_2, 4"},
-      {"model: SOUND", "model: LITERAL", "model: the literal model has one support radius for all particles"},
+      // What the literal model lacks, all at once.
+      {"model: SOUND", "model: LITERAL", "effects.core_radius: not in model LITERAL, because its kernels have one support radius"},
+      {"model: SOUND", "model: LITERAL", "effects.adhesion: not in model LITERAL, because the paper has no equation"},
+      {"model: SOUND", "model: LITERAL", "effects.viscosity.carreau_yasuda: not in model LITERAL, because"},
+      {"model: SOUND", "model: LITERAL", "effects.viscosity.solve: no implicit solve in model LITERAL, because"},
+      {"model: SOUND", "model: LITERAL", "effects.surface_tension.contact_angle_deg: no contact angle in model LITERAL, because"},
+      // What it would not read.
+      {"model: SOUND", "model: LITERAL", "resolution.kernel: is of model SOUND; leave it out, because"},
+      {"model: SOUND", "model: LITERAL", "effects.auto: is of model SOUND; leave it out, because"},
+      {"model: SOUND", "model: LITERAL", "effects.pressure.form: is of model SOUND; set literal.pressure"},
+      {"model: SOUND", "model: LITERAL", "effects.viscosity.solve_tolerance: is of model SOUND; leave it out, because"},
+      {"model: SOUND", "model: LITERAL", "effects.viscosity.max_iterations: is of model SOUND; leave it out, because"},
+      {"model: SOUND", "model: LITERAL", "effects.surface_tension.temperature_c: is of model SOUND; set literal.tension_n_per_m"},
+      {"model: SOUND", "model: LITERAL", "effects.surface_tension.normal_cutoff: is of model SOUND; set literal.normal_cutoff"},
+      {"model: SOUND", "model: LITERAL", "effects.platelets.diffusivity_m2_per_s: is of model SOUND; set literal.platelet_diff"},
+      {"model: SOUND", "model: LITERAL", "effects.platelets.activation_rate_per_s: is of model SOUND; leave it out, because (27)"},
+      {"model: SOUND", "model: LITERAL", "effects.platelets.wall_rate_per_s: is of model SOUND; leave it out, because (27)"},
+      {"model: SOUND", "model: LITERAL", "effects.platelets.air_rate_per_s: is of model SOUND; leave it out, because (27)"},
+      {"model: SOUND", "model: LITERAL", "effects.platelets.shear_gate_per_s: is of model SOUND; leave it out, because (27)"},
+      {"model: SOUND", "model: LITERAL", "effects.platelets.clot_speedup: is of model SOUND; leave it out, because (27)"},
+      {"model: SOUND", "model: LITERAL", "effects.platelets.clot_viscosity_pa_s: is of model SOUND; set literal.thickening_pa_s"},
+      {"model: SOUND", "model: LITERAL", "effects.repulsion.strength: is of model SOUND; set literal.repulsion_n_m2"},
+      {"model: SOUND", "model: LITERAL", "effects.repulsion.contact_distance: is of model SOUND; set literal.contact_radius"},
+      {"model: SOUND", "model: LITERAL", "effects.repulsion.power_1: is of model SOUND; set literal.power_1"},
+      {"model: SOUND", "model: LITERAL", "effects.repulsion.power_2: is of model SOUND; set literal.power_2"},
+      {"model: SOUND", "model: LITERAL", "effects.repulsion.damping: is of model SOUND; leave it out, because (36)"},
+      {"model: SOUND", "fluid_blocks { upper_m { x: 0.01 y: 0.01 z: 0.01 } viscosity_pa_s: 1 } model: LITERAL",
+       "fluid_blocks[0].viscosity_pa_s: is not read, because with platelets (26)"},
+      // A planar world.
+      {"capacity: 5000", "capacity: 5000 planar: true", "tissue: not in a planar world, because"},
+      {"capacity: 5000", "capacity: 5000 planar: true", "wounds: not in a planar world, because"},
+      {"capacity: 5000", "capacity: 5000 planar: true", "effects.surface_tension: surface tension is not in a planar sound world"},
+      {"capacity: 5000", "capacity: 5000 planar: true", "effects.platelets: not in a planar sound world, because"},
+      {"capacity: 5000", "capacity: 5000 planar: true", "effects.core_radius: not in a planar sound world, because"},
+      {"capacity: 5000", "capacity: 5000 planar: true", "effects.adhesion: not in a planar world, because"},
+      {"capacity: 5000", "capacity: 5000 planar: true", "effects.viscosity.carreau_yasuda: not in a planar world, because"},
+      {"capacity: 5000", "capacity: 5000 planar: true", "effects.viscosity.solve: no implicit solve in a planar world, because"},
   };
   return kRules;
 }
@@ -242,11 +278,60 @@ TEST(SceneEffects, WhatAnEffectNeedsIsSaidOfThatEffect) {
   EXPECT_THAT(problems_of("auto: 'platelets'"), HasSubstr("effects.auto[0]: there are no platelets"));
   EXPECT_THAT(problems_of("auto: 'implicit_viscosity'"), HasSubstr("effects.auto[0]: there is no viscosity"));
   EXPECT_THAT(problems_of("viscosity { solve: EXPLICIT } auto: 'implicit_viscosity'"), HasSubstr("is EXPLICIT already"));
+  const auto problem_in = [](std::string_view from, std::string_view to) {
+    return parseScene(replaced(kLeastScene, from, to) + "effects { viscosity {} auto: 'implicit_viscosity' }").status().message();
+  };
+  EXPECT_THAT(problem_in("capacity: 10", "capacity: 10 planar: true"), HasSubstr("effects.auto[0]: viscosity is explicit here"));
+  EXPECT_THAT(problem_in("0.002", "0.002 kernel: CUBIC_SPLINE"), HasSubstr("effects.auto[0]: viscosity is explicit here"));
   EXPECT_THAT(problems_of("viscosity { viscosity_pa_s: 1 casson {} }"), HasSubstr("rheology"));
   EXPECT_THAT(problems_of("viscosity {} } output { attributes: PLATELET"),
               HasSubstr("output.attributes: PLATELET needs the platelets"));
   EXPECT_THAT(problems_of("surface_tensoin {}"), HasSubstr("did you mean 'surface_tension'?"));
   EXPECT_THAT(problems_of("platelets { clot_viscosity: 1 }"), HasSubstr("did you mean 'clot_viscosity_pa_s'?"));
+}
+
+constexpr std::string_view kLiteralScene = "model: LITERAL effects { pressure {} viscosity { viscosity_pa_s: 0.02 } "
+                                           "surface_tension {} platelets { fresh: 0.9 } repulsion {} }";
+
+TEST(SceneEffects, TheLiteralModelsTextHasItsOwnNumbersOnly) {
+  const Result<SceneDescription> scene = parseScene(std::string{kLeastScene} + std::string{kLiteralScene});
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  EXPECT_EQ(scene->world.effects.platelets->fresh, 0.9);
+  EXPECT_EQ(scene->world.effects.viscosity->viscosity, 0.02);
+  for (const std::string_view foreign : {"sigma_n_per_m", "strength", "wall_rate", "kernel", "form", "solve_tolerance"}) {
+    EXPECT_THAT(scene->normalized_text, testing::Not(HasSubstr(std::string{foreign})));
+  }
+  const Result<SceneDescription> again = parseScene(scene->normalized_text);
+  ASSERT_TRUE(again.ok()) << again.status().message();
+  EXPECT_EQ(again->normalized_text, scene->normalized_text);
+}
+
+TEST(SceneEffects, AClotOfTheLiteralModelIsThickerThanBlood) {
+  const std::string scene = std::string{kLeastScene} + std::string{kLiteralScene};
+  EXPECT_TRUE(parseScene(scene + "literal { thickening_pa_s: 0.03 }").ok());
+  EXPECT_THAT(parseScene(scene + "literal { thickening_pa_s: 0.01 }").status().message(),
+              HasSubstr("literal.thickening_pa_s: value 0.01 is below fresh blood's, 0.02"));
+}
+
+TEST(SceneEffects, TheCubicSplineKnowsAdhesion) {
+  const Result<SceneDescription> scene =
+      parseScene(replaced(kLeastScene, "spacing_m: 0.002", "spacing_m: 0.002 kernel: CUBIC_SPLINE") +
+                 "effects { pressure {} adhesion {} } tissue { plane { normal { z: 1 } } }");
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  EXPECT_TRUE(sph::createWorld(scene->world, {}).ok());
+}
+
+TEST(SceneEffects, TensionOnTooFewNeighboursIsWarnedOf) {
+  const std::string tension = std::string{kLeastScene} + "effects { surface_tension {} }";
+  const Result<SceneDescription> few = parseScene(tension);
+  ASSERT_TRUE(few.ok()) << few.status().message();
+  EXPECT_THAT(few->warnings, ElementsAre("warning: effects.surface_tension: drops of thin blood boil at "
+                                         "resolution.support_ratio 2; use 2.5 or more"));
+  const Result<SceneDescription> enough = parseScene(replaced(tension, "spacing_m: 0.002", "spacing_m: 0.002 support_ratio: 2.5"));
+  ASSERT_TRUE(enough.ok());
+  EXPECT_THAT(enough->warnings, testing::IsEmpty());
+  const Result<SceneDescription> without = parseScene(kLeastScene);
+  EXPECT_THAT(without->warnings, testing::IsEmpty());
 }
 
 TEST(SceneEffects, AllProblemsAreToldAtOnce) {
