@@ -20,7 +20,9 @@ bool Simulation::mustWait(const dds::DecodedRequest& request) const {
   return command && (!waiting_wounds_.empty() || callsForTension(*command));
 }
 
-bool Simulation::callsForTension(const sph::Command& command) const { return patchWidthOf(command) <= scene_->tension_below; }
+bool Simulation::callsForTension(const sph::Command& command) const {
+  return scene_->tension_below > 0.0 && patchWidthOf(command) <= scene_->tension_below;
+}
 
 bool Simulation::anyCallsForTension() const {
   return std::any_of(waiting_wounds_.begin(), waiting_wounds_.end(),
