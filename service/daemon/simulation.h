@@ -131,8 +131,8 @@ class Simulation {
   std::uint32_t steps_in_frame_ = 0;
   std::array<double, static_cast<std::size_t>(sph::Stage::count)> stage_seconds_at_frame_{};
   std::optional<PendingLoad> pending_load_;
-  std::optional<PendingSwitch> pending_switch_;      // at most one of the two: there is one loader
-  std::vector<dds::DecodedRequest> waiting_wounds_;  // in order, until surface tension is there
+  std::optional<PendingSwitch> pending_switch_;                       // at most one of the two: there is one loader
+  std::vector<dds::DecodedRequest> waiting_wounds_;                   // in order, until surface tension is there
   double narrowest_wound_ = std::numeric_limits<double>::infinity();  // m, of all that came by command in this epoch
   bool faulted_ = false;
   std::string fault_text_;

@@ -13,8 +13,10 @@ Status Simulation::startSwitching(const dds::SetEffect& set) {
   if (pending_switch_) return {StatusCode::wrong_state, "another effect is being switched: wait for its reply"};
   if (faulted_) return {StatusCode::wrong_state, "the solver has stopped on bad numbers: reset or load a scene first"};
   pending_switch_.emplace();
-  loader_.start({{}, scene_, EffectJob{scene::EffectChange{set.name, set.enabled, set.settings},
-                                       {world_->speedOfSound(), narrowest_wound_}}});
+  loader_.start(
+      {{},
+       scene_,
+       EffectJob{scene::EffectChange{set.name, set.enabled, set.settings}, {world_->speedOfSound(), narrowest_wound_}}});
   return {};
 }
 

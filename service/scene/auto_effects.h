@@ -38,7 +38,7 @@ struct AutoDecision {
 
 /// What a session that runs the scene knows beyond it.
 struct Session {
-  double speed_of_sound = 0.0;                                      ///< m/s, kept whatever is switched
+  double speed_of_sound = 0.0;                                       ///< m/s, kept whatever is switched
   double narrowest_wound = std::numeric_limits<double>::infinity();  ///< m, of all patches that came by command
 };
 
@@ -46,8 +46,7 @@ struct Session {
 double tensionReach(const sph::WorldDescription& world);
 
 /// One decision. The effect must be among the description's; `horizon` in s, `narrowest_wound` as in Session.
-AutoDecision decideTension(const sph::WorldDescription& world,
-                           double narrowest_wound = std::numeric_limits<double>::infinity());
+AutoDecision decideTension(const sph::WorldDescription& world, double narrowest_wound = std::numeric_limits<double>::infinity());
 AutoDecision decidePlatelets(const sph::WorldDescription& world, double horizon);
 AutoDecision decideImplicitViscosity(const sph::WorldDescription& world, double speed_of_sound);
 

@@ -32,7 +32,8 @@ void validateSpline(const Effects& effects, ProblemList& problems) {
   constexpr std::string_view kShearRate = "the shear rate is summed with it";
   if (effects.viscosity().has_carreau_yasuda()) refuse("effects.viscosity.carreau_yasuda", kShearRate);
   if (effects.viscosity().has_casson()) refuse("effects.viscosity.casson", kShearRate);
-  if (effects.viscosity().solve() == Viscosity::IMPLICIT) refuse("effects.viscosity.solve", "the implicit sweeps are made for it");
+  if (effects.viscosity().solve() == Viscosity::IMPLICIT)
+    refuse("effects.viscosity.solve", "the implicit sweeps are made for it");
 }
 
 void validatePlatelets(const Scene& scene, ProblemList& problems) {

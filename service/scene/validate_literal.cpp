@@ -10,7 +10,8 @@ void validateLiteralModel(const Scene& scene, ProblemList& problems) {
   if (scene.model() != Scene::LITERAL) return;
   refuseSoundOnly(scene.effects(), problems);
   if (scene.resolution().has_kernel()) {
-    problems.add("resolution.kernel", "is of model SOUND; leave it out, because the printed equations come with kernels (29)-(33)");
+    problems.add("resolution.kernel",
+                 "is of model SOUND; leave it out, because the printed equations come with kernels (29)-(33)");
   }
   if (scene.effects().auto__size() > 0) {
     problems.add("effects.auto", "is of model SOUND; leave it out, because its bounds do not hold for the printed equations");

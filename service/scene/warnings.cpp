@@ -13,8 +13,7 @@ constexpr double kTensionSupport = 2.5;
 std::vector<std::string> findWarnings(const sph::WorldDescription& world) {
   std::vector<std::string> warnings;
   if (world.model == sph::Model::sound && world.effects.surface_tension && world.support_ratio < kTensionSupport) {
-    warnings.push_back(fmt::format("warning: effects.surface_tension: drops of thin blood boil at resolution.support_ratio {:g}; "
-                                   "use {:g} or more",
+    warnings.push_back(fmt::format("warning: surface_tension: drops boil at support_ratio {:g}; use {:g} or more",
                                    world.support_ratio, kTensionSupport));
   }
   return warnings;

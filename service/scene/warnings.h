@@ -8,7 +8,7 @@
 
 namespace bleedsim::scene {
 
-/// One text each: "warning: field: what goes wrong; what to do". Of what acts, after effects.auto.
+/// One text each: "warning: effect: what goes wrong; what to do", short enough for a status. Of what acts, after effects.auto.
 std::vector<std::string> findWarnings(const sph::WorldDescription& world);
 
 }  // namespace bleedsim::scene

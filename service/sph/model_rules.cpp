@@ -88,7 +88,8 @@ std::vector<ModelProblem> literalProblems(const WorldDescription& d) {
                            "not in model LITERAL, because the paper's mu knows no shear rate; set viscosity_pa_s");
     }
     if (viscosity->solve == ViscositySolve::implicit) {
-      problems.unsupported("effects.viscosity.solve", "no implicit solve in model LITERAL, because the printed (25) is a pair sum; drop it");
+      problems.unsupported("effects.viscosity.solve",
+                           "no implicit solve in model LITERAL, because the printed (25) is a pair sum; drop it");
     }
   }
   if (effects.surface_tension && effects.surface_tension->contact_angle) {
@@ -104,7 +105,8 @@ std::vector<ModelProblem> planarProblems(const WorldDescription& d) {
   Problems problems;
   const EffectSettings& effects = d.effects;
   if (!d.tissue.empty()) {
-    problems.unsupported("tissue", "not in a planar world, because its share of density is that of a half space; leave tissue out");
+    problems.unsupported("tissue",
+                         "not in a planar world, because its share of density is that of a half space; leave tissue out");
   }
   if (!d.wounds.empty()) {
     problems.unsupported("wounds", "not in a planar world, because blood comes up through its only layer; leave wounds out");

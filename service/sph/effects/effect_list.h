@@ -36,7 +36,8 @@ struct EffectRow {
 inline constexpr std::array<EffectRow, 9> kEffects{{
     {{"gravity", "F of (9)", "the paper; service/sph/integrate/kick_drift.h", "none"}, effectSlot<&EffectSettings::gravity>()},
     {{"pressure", "(16)(17)(18)(19)(20)", "Monaghan 1992; Wendland 1995; service/sph/effects/pressure-inl.h",
-      "p = c0^2 (rho - rho0) of (19), never negative, instead of p = k rho of (18); (16) by default, (17) on request; Wendland C2, "
+      "p = c0^2 (rho - rho0) of (19), never negative, instead of p = k rho of (18); (16) by default, (17) on request; Wendland "
+      "C2, "
       "or a cubic spline, for density and gradient instead of poly6 and spiky; the mass of a particle is calibrated, so that the "
       "rest lattice has rho0"},
      effectSlot<&EffectSettings::pressure>()},
@@ -58,12 +59,13 @@ inline constexpr std::array<EffectRow, 9> kEffects{{
       "time step"},
      effectSlot<&EffectSettings::repulsion>()},
     {{"surface_tension", "(21)-(23)", "Brackbill 1992; Morris 2000; Breinlinger 2013; service/sph/effects/surface_tension.h",
-      "curvature of kept normals instead of the Laplacian of the colour field, |kappa| h <= 2; a factor of 1.56 fitted to drops at "
-      "rest; a ramp from the cut-off of |n| to twice it instead of the cut; an artificial viscosity nu = 0.2 h sqrt(sigma/(rho0 h)) "
+      "curvature of kept normals instead of the Laplacian of the colour field, |kappa| h <= 2; a factor of 1.56 fitted to drops "
+      "at "
+      "rest; a ramp from the cut-off of |n| to twice it instead of the cut; an artificial viscosity nu = 0.2 h sqrt(sigma/(rho0 "
+      "h)) "
       "between surface particles, without which drops boil; no net force on a free body"},
      effectSlot<&EffectSettings::surface_tension>()},
-    {{"adhesion", "-", "bleedsim; service/sph/effects/adhesion.h",
-      "not in the paper as a formula: a pull to tissue within h"},
+    {{"adhesion", "-", "bleedsim; service/sph/effects/adhesion.h", "not in the paper as a formula: a pull to tissue within h"},
      effectSlot<&EffectSettings::adhesion>()},
     {{"applied_force", "-", "bleedsim; service/sph/effects/applied_force.h",
       "not in the paper: force of instruments and commands on the fluid"},

@@ -183,9 +183,8 @@ TEST(ApplyAuto, LeavesOutOnlyWhatItWasAskedAbout) {
 }
 
 TEST(ParseScene, KeepsWhatWouldBringTensionBack) {
-  const std::string text =
-      std::string{kLeastScene} + "effects { gravity {} surface_tension {} auto: 'surface_tension' }" +
-      "fluid_blocks { lower_m { z: 0.01 } upper_m { x: 0.02 y: 0.02 z: 0.03 } }";
+  const std::string text = std::string{kLeastScene} + "effects { gravity {} surface_tension {} auto: 'surface_tension' }" +
+                           "fluid_blocks { lower_m { z: 0.01 } upper_m { x: 0.02 y: 0.02 z: 0.03 } }";
   const Result<SceneDescription> off = parseScene(replaced(text, "capacity: 10", "capacity: 2000"));
   ASSERT_TRUE(off.ok()) << off.status().message();
   EXPECT_THAT(off->effects, testing::ElementsAre("gravity"));
@@ -194,7 +193,8 @@ TEST(ParseScene, KeepsWhatWouldBringTensionBack) {
   ASSERT_TRUE(on.ok()) << on.status().message();
   EXPECT_THAT(on->effects, testing::ElementsAre("gravity", "surface_tension"));
   EXPECT_EQ(on->tension_below, 0.0);
-  EXPECT_THAT(on->decisions, testing::ElementsAre(HasSubstr("auto: surface_tension on: the smallest feature, a wound by command")));
+  EXPECT_THAT(on->decisions,
+              testing::ElementsAre(HasSubstr("auto: surface_tension on: the smallest feature, a wound by command")));
   EXPECT_EQ(on->normalized_text, off->normalized_text);
   // Another effect is switched by hand: the wound is not forgotten.
   const Result<SceneDescription> later = changeEffect(*on, {"pressure", true, ""}, {3.0, 0.001});

@@ -24,7 +24,8 @@ SceneDescription parsed(const std::string& text) {
 }
 
 SceneDescription changed(const SceneDescription& scene, const EffectChange& change, std::optional<double> speed_of_sound = {}) {
-  Result<SceneDescription> result = changeEffect(scene, change, {.speed_of_sound = speed_of_sound.value_or(sph::speedOfSound(scene.world))});
+  Result<SceneDescription> result =
+      changeEffect(scene, change, {.speed_of_sound = speed_of_sound.value_or(sph::speedOfSound(scene.world))});
   EXPECT_TRUE(result.ok()) << change.name << ": " << result.status().message();
   return result.ok() ? *result : scene;
 }

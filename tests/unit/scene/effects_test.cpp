@@ -193,12 +193,18 @@ const std::vector<Rule>& rules() {
       // combinations
       {"tissue { plane { normal { z: 1 } } }", "", "effects.adhesion: needs tissue"},
       {"tissue { plane { normal { z: 1 } } }", "", "effects.surface_tension.contact_angle_deg: needs tissue"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.surface_tension: needs kernel WENDLAND_C2, because its factor and cut-off are fitted with it"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.platelets: needs kernel WENDLAND_C2, because the spline's sums are built without it"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.core_radius: needs kernel WENDLAND_C2, because the spline's sums are built without it"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.repulsion: needs kernel WENDLAND_C2, because the spline's sums are built without it"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.viscosity.carreau_yasuda: needs kernel WENDLAND_C2, because the shear rate is summed with it"},
-      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE", "effects.viscosity.solve: needs kernel WENDLAND_C2, because the implicit sweeps are made for it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE",
+       "effects.surface_tension: needs kernel WENDLAND_C2, because its factor and cut-off are fitted with it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE",
+       "effects.platelets: needs kernel WENDLAND_C2, because the spline's sums are built without it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE",
+       "effects.core_radius: needs kernel WENDLAND_C2, because the spline's sums are built without it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE",
+       "effects.repulsion: needs kernel WENDLAND_C2, because the spline's sums are built without it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE",
+       "effects.viscosity.carreau_yasuda: needs kernel WENDLAND_C2, because the shear rate is summed with it"},
+      {"kernel: WENDLAND_C2", "kernel: CUBIC_SPLINE",
+       "effects.viscosity.solve: needs kernel WENDLAND_C2, because the implicit sweeps are made for it"},
       {"kernel: WENDLAND_C2", "kernel: 4", "resolution.kernel: value 4 is unknown, known are WENDLAND_C2, CUBIC_SPLINE"},
       // output
       {"core_radius { smallest: 0.8 largest: 1.2 relaxation: 0.2 }", "",
@@ -217,7 +223,8 @@ const std::vector<Rule>& rules() {
        "literal.contact_radius: value 0.6 is out of range, allowed 0.05 to 0.5 (spacings)"},
       {"model: SOUND", "model: LITERAL literal { power_1: 4 power_2: 4 }", "literal.power_1: value 4 must be above power_2, 4"},
       // What the literal model lacks, all at once.
-      {"model: SOUND", "model: LITERAL", "effects.core_radius: not in model LITERAL, because its kernels have one support radius"},
+      {"model: SOUND", "model: LITERAL",
+       "effects.core_radius: not in model LITERAL, because its kernels have one support radius"},
       {"model: SOUND", "model: LITERAL", "effects.adhesion: not in model LITERAL, because the paper has no equation"},
       {"model: SOUND", "model: LITERAL", "effects.viscosity.carreau_yasuda: not in model LITERAL, because"},
       {"model: SOUND", "model: LITERAL", "effects.viscosity.solve: no implicit solve in model LITERAL, because"},
@@ -231,7 +238,8 @@ const std::vector<Rule>& rules() {
       {"model: SOUND", "model: LITERAL", "effects.surface_tension.temperature_c: is of model SOUND; set literal.tension_n_per_m"},
       {"model: SOUND", "model: LITERAL", "effects.surface_tension.normal_cutoff: is of model SOUND; set literal.normal_cutoff"},
       {"model: SOUND", "model: LITERAL", "effects.platelets.diffusivity_m2_per_s: is of model SOUND; set literal.platelet_diff"},
-      {"model: SOUND", "model: LITERAL", "effects.platelets.activation_rate_per_s: is of model SOUND; leave it out, because (27)"},
+      {"model: SOUND", "model: LITERAL",
+       "effects.platelets.activation_rate_per_s: is of model SOUND; leave it out, because (27)"},
       {"model: SOUND", "model: LITERAL", "effects.platelets.wall_rate_per_s: is of model SOUND; leave it out, because (27)"},
       {"model: SOUND", "model: LITERAL", "effects.platelets.air_rate_per_s: is of model SOUND; leave it out, because (27)"},
       {"model: SOUND", "model: LITERAL", "effects.platelets.shear_gate_per_s: is of model SOUND; leave it out, because (27)"},
@@ -247,7 +255,8 @@ const std::vector<Rule>& rules() {
       // A planar world.
       {"capacity: 5000", "capacity: 5000 planar: true", "tissue: not in a planar world, because"},
       {"capacity: 5000", "capacity: 5000 planar: true", "wounds: not in a planar world, because"},
-      {"capacity: 5000", "capacity: 5000 planar: true", "effects.surface_tension: surface tension is not in a planar sound world"},
+      {"capacity: 5000", "capacity: 5000 planar: true",
+       "effects.surface_tension: surface tension is not in a planar sound world"},
       {"capacity: 5000", "capacity: 5000 planar: true", "effects.platelets: not in a planar sound world, because"},
       {"capacity: 5000", "capacity: 5000 planar: true", "effects.core_radius: not in a planar sound world, because"},
       {"capacity: 5000", "capacity: 5000 planar: true", "effects.adhesion: not in a planar world, because"},
@@ -290,8 +299,9 @@ TEST(SceneEffects, WhatAnEffectNeedsIsSaidOfThatEffect) {
   EXPECT_THAT(problems_of("platelets { clot_viscosity: 1 }"), HasSubstr("did you mean 'clot_viscosity_pa_s'?"));
 }
 
-constexpr std::string_view kLiteralScene = "model: LITERAL effects { pressure {} viscosity { viscosity_pa_s: 0.02 } "
-                                           "surface_tension {} platelets { fresh: 0.9 } repulsion {} }";
+constexpr std::string_view kLiteralScene =
+    "model: LITERAL effects { pressure {} viscosity { viscosity_pa_s: 0.02 } "
+    "surface_tension {} platelets { fresh: 0.9 } repulsion {} }";
 
 TEST(SceneEffects, TheLiteralModelsTextHasItsOwnNumbersOnly) {
   const Result<SceneDescription> scene = parseScene(std::string{kLeastScene} + std::string{kLiteralScene});
@@ -325,9 +335,9 @@ TEST(SceneEffects, TensionOnTooFewNeighboursIsWarnedOf) {
   const std::string tension = std::string{kLeastScene} + "effects { surface_tension {} }";
   const Result<SceneDescription> few = parseScene(tension);
   ASSERT_TRUE(few.ok()) << few.status().message();
-  EXPECT_THAT(few->warnings, ElementsAre("warning: effects.surface_tension: drops of thin blood boil at "
-                                         "resolution.support_ratio 2; use 2.5 or more"));
-  const Result<SceneDescription> enough = parseScene(replaced(tension, "spacing_m: 0.002", "spacing_m: 0.002 support_ratio: 2.5"));
+  EXPECT_THAT(few->warnings, ElementsAre("warning: surface_tension: drops boil at support_ratio 2; use 2.5 or more"));
+  const Result<SceneDescription> enough =
+      parseScene(replaced(tension, "spacing_m: 0.002", "spacing_m: 0.002 support_ratio: 2.5"));
   ASSERT_TRUE(enough.ok());
   EXPECT_THAT(enough->warnings, testing::IsEmpty());
   const Result<SceneDescription> without = parseScene(kLeastScene);

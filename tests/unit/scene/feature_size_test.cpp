@@ -20,9 +20,7 @@ std::vector<Vec2> turned(std::vector<Vec2> points, double angle) {
 const std::vector<Vec2> kSlit{{-0.01, -0.0004}, {0.01, -0.0004}, {0.01, 0.0004}, {-0.01, 0.0004}};
 
 TEST(LeastWidth, DoesNotDependOnTheDirection) {
-  for (int k = 0; k < 24; ++k) {
-    EXPECT_NEAR(leastWidth(turned(kSlit, k * std::numbers::pi / 24.0)), 0.0008, 1e-12) << k;
-  }
+  for (int k = 0; k < 24; ++k) { EXPECT_NEAR(leastWidth(turned(kSlit, k * std::numbers::pi / 24.0)), 0.0008, 1e-12) << k; }
 }
 
 TEST(LeastWidth, IsTheSmallestHeightOfATriangle) {
@@ -53,8 +51,8 @@ TEST(PatchWidth, OfABentSlitIsThatOfItsLegs) {
 
 // The gap between the arms of a U is tissue, not wound.
 TEST(PatchWidth, DoesNotMeasureOutside) {
-  const std::vector<Vec2> u{{0.0, 0.0}, {0.021, 0.0}, {0.021, 0.02}, {0.011, 0.02},
-                            {0.011, 0.01}, {0.01, 0.01}, {0.01, 0.02}, {0.0, 0.02}};
+  const std::vector<Vec2> u{{0.0, 0.0},    {0.021, 0.0}, {0.021, 0.02}, {0.011, 0.02},
+                            {0.011, 0.01}, {0.01, 0.01}, {0.01, 0.02},  {0.0, 0.02}};
   EXPECT_NEAR(patchWidth(sph::PolygonPatch{u}), 0.01, 1e-12);
 }
 
