@@ -1,15 +1,17 @@
 // The commands of bleedd that simulate nothing.
 #pragma once
 
+#include <string>
+
 #include "service/daemon/scene_loader.h"
 
 namespace bleedsim::daemon {
 
-/// --list-effects, to standard output, as a table or as one JSON array. `description` may be null: then without the state in a
-/// scene.
-void printEffects(const scene::SceneDescription* description, bool json);
+/// --list-effects, as a table or as one JSON object. `description` may be null: then every effect is "available". With one its
+/// state there is "on" or "off", and its decisions and warnings follow.
+std::string listEffects(const scene::SceneDescription* description, bool json);
 
-/// --check, to standard output: what the world of the scene is like.
-void printWorld(const LoadedScene& loaded);
+/// --check: what the world of the scene is like.
+std::string describeWorld(const LoadedScene& loaded);
 
 }  // namespace bleedsim::daemon

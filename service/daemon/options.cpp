@@ -88,7 +88,7 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   app.add_flag("--check", options.check, "Check the scene, build its world and exit");
   auto* list = app.add_flag("--list-effects", options.list_effects,
                             "List the effects of this build: equation, source, deviation from the paper; with a scene, also "
-                            "their state in it");
+                            "their state in it, decisions of effects.auto and warnings");
   app.add_flag("--json", options.json, "List the effects as JSON")->needs(list);
 
   try {

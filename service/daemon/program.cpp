@@ -1,5 +1,6 @@
 #include "service/daemon/program.h"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 #include <utility>
 
@@ -16,6 +17,7 @@ void logStart(const ServiceOptions& options, const Service& service, const scene
                transport::toString(identity.uuid), options.participant.domain,
                options.participant.interface.empty() ? "loopback" : options.participant.interface);
   spdlog::info("scene '{}', capacity {} particles, SIMD target {}", scene.name, scene.world.capacity, simd);
+  for (const std::string& warning : scene.warnings) spdlog::warn("{}", warning);
 }
 
 /// Of a service that could not start or did not end as asked.
@@ -56,7 +58,7 @@ ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory fac
 
 ExitCode runProgram(const Options& options, SignalWatch& signals) {
   if (!options.scene) {
-    printEffects(nullptr, options.json);
+    fmt::print("{}", listEffects(nullptr, options.json));
     return ExitCode::ok;
   }
   Result<scene::SceneDescription> parsed = scene::loadScene(*options.scene);
@@ -65,7 +67,7 @@ ExitCode runProgram(const Options& options, SignalWatch& signals) {
     return ExitCode::usage;
   }
   if (options.list_effects) {
-    printEffects(&*parsed, options.json);
+    fmt::print("{}", listEffects(&*parsed, options.json));
     return ExitCode::ok;
   }
   const SceneFactory factory = worldFactory(options.world);
@@ -75,7 +77,7 @@ ExitCode runProgram(const Options& options, SignalWatch& signals) {
     return ExitCode::usage;
   }
   if (options.check) {
-    printWorld(*loaded);
+    fmt::print("{}", describeWorld(*loaded));
     return ExitCode::ok;
   }
   return runService(options, std::move(*loaded), factory, signals);

@@ -1,5 +1,6 @@
 #include "service/daemon/scene_loader.h"
 
+#include <algorithm>
 #include <exception>
 #include <spdlog/spdlog.h>
 #include <utility>
@@ -7,10 +8,20 @@
 namespace bleedsim::daemon {
 namespace {
 
+/// Into the log, those that were not there before.
+void tellWarnings(const scene::SceneDescription& scene, const std::vector<std::string>& before) {
+  for (const std::string& warning : scene.warnings) {
+    if (std::find(before.begin(), before.end(), warning) == before.end()) spdlog::warn("{}", warning);
+  }
+}
+
 Result<LoadedScene> buildSwitched(const SceneJob& job, sph::WorldOptions options) {
-  Result<scene::SceneDescription> changed = scene::changeEffect(*job.known, job.effect->change, job.effect->speed_of_sound);
+  const scene::Session& session = job.effect->session;
+  Result<scene::SceneDescription> changed = job.effect->change ? scene::changeEffect(*job.known, *job.effect->change, session)
+                                                               : scene::decideAgain(*job.known, session);
   if (!changed) return changed.status();
-  options.speed_of_sound = job.effect->speed_of_sound;
+  tellWarnings(*changed, job.known->warnings);
+  options.speed_of_sound = session.speed_of_sound;
   Result<std::unique_ptr<sph::World>> world = sph::createWorld(changed->world, options);
   if (!world) return world.status();
   return LoadedScene{std::make_shared<const scene::SceneDescription>(std::move(*changed)), std::move(*world), {}};
@@ -26,6 +37,7 @@ Result<LoadedScene> build(const SceneJob& job, const sph::WorldOptions& options)
       spdlog::warn("load_scene refused: {}", parsed.status().message());
       return parsed.status();
     }
+    tellWarnings(*parsed, {});
     description = std::make_shared<const scene::SceneDescription>(std::move(*parsed));
   }
   Result<std::unique_ptr<sph::World>> world = sph::createWorld(description->world, options);

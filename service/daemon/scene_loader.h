@@ -23,13 +23,13 @@ struct LoadedScene {
   FrameMailbox::Buffers frames;
 };
 
-/// An effect is switched in a scene that runs at this speed of sound, m/s.
+/// What of a running scene is to be switched: an effect by request, or what effects.auto decides now that the session knows more.
 struct EffectJob {
-  scene::EffectChange change;
-  double speed_of_sound = 0.0;
+  std::optional<scene::EffectChange> change;
+  scene::Session session;
 };
 
-/// What to build: a scene's text, a known scene from its start, or a known scene with another effect.
+/// What to build: a scene's text, a known scene from its start, or a known scene with other effects.
 struct SceneJob {
   std::string text;
   std::shared_ptr<const scene::SceneDescription> known;  ///< instead of the text

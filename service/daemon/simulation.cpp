@@ -1,7 +1,8 @@
 #include "service/daemon/simulation.h"
 
 #include <algorithm>
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 #include <utility>
 
@@ -71,12 +72,13 @@ void Simulation::install(LoadedScene loaded, TimePoint now) {
   steps_left_ = 0;
   steps_in_frame_ = 0;
   stage_seconds_at_frame_ = {};
+  narrowest_wound_ = std::numeric_limits<double>::infinity();
   instruments_.clear();
   pacer_.restart(now);
   frame_clock_.restart();
   channels_.journal.beginEpoch(epoch_);
   channels_.frames.renew(std::move(loaded.frames));
-  for (const std::string& decision : scene_->decisions) record(dds::Decision{decision});
+  recordNewNotes({});
   postScene();
   frame_clock_.take(world_->time());
   publishFrame(now);
@@ -105,7 +107,7 @@ void Simulation::showState() {
     report.frame_rate = frame_clock_.rate();
     report.particles = world_->particleCount();
     report.wounds = static_cast<std::uint32_t>(world_->wounds().size());
-    report.text = note();
+    report.text = fault_text_.empty() ? fmt::format("{}", fmt::join(notes(), "; ")) : fault_text_;
     report.full_frame_bytes = scene_->world.capacity * dds::frameBytesPerParticle(attributes_);
   });
   channels_.publisher.notify();

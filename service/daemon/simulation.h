@@ -4,11 +4,13 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "service/daemon/channels.h"
 #include "service/daemon/frame_clock.h"
@@ -54,6 +56,11 @@ class Simulation {
     bool was_faulted = false;
   };
 
+  /// Another world is built beside the one that runs: for a request, or without one for wounds that wait.
+  struct PendingSwitch {
+    std::optional<dds::DecodedRequest> request;
+  };
+
   // simulation.cpp
   void install(LoadedScene loaded, TimePoint now);
   void finishLoading(TimePoint now);
@@ -72,6 +79,7 @@ class Simulation {
   Result<sph::Applied> applyToWorld(const sph::Command& command);
   Status startLoading(SceneJob job, bool reset, TimePoint now);
   Result<sph::Applied> setOutput(const dds::SetOutput& output);
+  void settle(dds::DecodedRequest& request, const Result<sph::Applied>& done);
   void answer(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id);
   void answerLoad(PendingLoad& load, const Status& status);
   void send(dds::Reply reply);
@@ -86,9 +94,19 @@ class Simulation {
   // simulation_effects.cpp
   Status startSwitching(const dds::SetEffect& set);
   void finishSwitching();
+  Status takeOver(LoadedScene& next);
+  void recordNewNotes(const std::vector<std::string>& before);
   std::uint32_t availableAttributes() const;
   bool acts(std::string_view effect) const;
-  std::string note() const;
+  std::vector<std::string> notes() const;
+
+  // simulation_wounds.cpp
+  bool mustWait(const dds::DecodedRequest& request) const;
+  bool callsForTension(const sph::Command& command) const;
+  bool anyCallsForTension() const;
+  void holdWound(dds::DecodedRequest request);
+  void decideForWounds();
+  void releaseWounds(const Status& switched);
 
   // simulation_instruments.cpp
   void takeSample(const InstrumentInput& input);
@@ -113,7 +131,9 @@ class Simulation {
   std::uint32_t steps_in_frame_ = 0;
   std::array<double, static_cast<std::size_t>(sph::Stage::count)> stage_seconds_at_frame_{};
   std::optional<PendingLoad> pending_load_;
-  std::optional<dds::DecodedRequest> pending_effect_;  // at most one of the two: there is one loader
+  std::optional<PendingSwitch> pending_switch_;                       // at most one of the two: there is one loader
+  std::vector<dds::DecodedRequest> waiting_wounds_;                   // in order, until surface tension is there
+  double narrowest_wound_ = std::numeric_limits<double>::infinity();  // m, of all that came by command in this epoch
   bool faulted_ = false;
   std::string fault_text_;
   bool ended_ = false;

@@ -1,8 +1,8 @@
 // Effects that are switched while the world runs: a second world is built beside it and takes over its state between two steps.
 #include <algorithm>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "service/daemon/simulation.h"
 
@@ -10,37 +10,56 @@ namespace bleedsim::daemon {
 
 Status Simulation::startSwitching(const dds::SetEffect& set) {
   if (pending_load_) return {StatusCode::wrong_state, "a scene is being loaded: wait for its reply"};
-  if (pending_effect_) return {StatusCode::wrong_state, "another effect is being switched: wait for its reply"};
+  if (pending_switch_) return {StatusCode::wrong_state, "another effect is being switched: wait for its reply"};
   if (faulted_) return {StatusCode::wrong_state, "the solver has stopped on bad numbers: reset or load a scene first"};
-  pending_effect_.emplace();
-  loader_.start({{}, scene_, EffectJob{{set.name, set.enabled, set.settings}, world_->speedOfSound()}});
+  pending_switch_.emplace();
+  loader_.start(
+      {{},
+       scene_,
+       EffectJob{scene::EffectChange{set.name, set.enabled, set.settings}, {world_->speedOfSound(), narrowest_wound_}}});
   return {};
 }
 
 void Simulation::finishSwitching() {
-  if (!pending_effect_) return;
+  if (!pending_switch_) return;
   std::optional<Result<LoadedScene>> finished = loader_.takeFinished();
   if (!finished) return;
-  dds::DecodedRequest request = std::move(*pending_effect_);
-  pending_effect_.reset();
+  PendingSwitch pending = std::move(*pending_switch_);
+  pending_switch_.reset();
+  const std::vector<std::string> before = notes();
   Status outcome = finished->status();
   if (outcome && faulted_) outcome = {StatusCode::wrong_state, "the solver has stopped on bad numbers meanwhile"};
-  if (outcome) outcome = (*finished)->world->adopt(*world_);
-  if (outcome) {
-    const std::vector<std::string> before = scene_->decisions;
-    std::swap(world_, (*finished)->world);
-    scene_ = std::move((*finished)->scene);
-    attributes_ &= availableAttributes();
-    postScene();
-    if (request.original) record(dds::RequestTaken{std::move(request.original), 0});
-    for (const std::string& decision : scene_->decisions) {
-      if (std::find(before.begin(), before.end(), decision) == before.end()) record(dds::Decision{decision});
-    }
+  if (outcome) outcome = takeOver(**finished);
+  if (outcome && pending.request && pending.request->original) {
+    record(dds::RequestTaken{std::move(pending.request->original), 0});
   }
-  answer(request, outcome, 0);
+  if (outcome) recordNewNotes(before);
+  if (pending.request) answer(*pending.request, outcome, 0);
   // Freeing a world takes longer than a step.
   if (finished->ok()) loader_.retire(std::move((*finished)->world));
+  if (pending.request && !faulted_ && anyCallsForTension()) {
+    decideForWounds();
+  } else {
+    releaseWounds(outcome);
+  }
   showState();
+}
+
+/// `next` takes the place of what runs, and holds the old world afterwards.
+Status Simulation::takeOver(LoadedScene& next) {
+  if (Status adopted = next.world->adopt(*world_); !adopted) return adopted;
+  std::swap(world_, next.world);
+  scene_ = std::move(next.scene);
+  attributes_ &= availableAttributes();
+  postScene();
+  return {};
+}
+
+/// Into the journal, those that were not there before.
+void Simulation::recordNewNotes(const std::vector<std::string>& before) {
+  for (const std::string& note : notes()) {
+    if (std::find(before.begin(), before.end(), note) == before.end()) record(dds::Decision{note});
+  }
 }
 
 std::uint32_t Simulation::availableAttributes() const {
@@ -55,9 +74,11 @@ bool Simulation::acts(std::string_view effect) const {
   return std::find(scene_->effects.begin(), scene_->effects.end(), effect) != scene_->effects.end();
 }
 
-std::string Simulation::note() const {
-  if (!fault_text_.empty()) return fault_text_;
-  return fmt::format("{}", fmt::join(scene_->decisions, "; "));
+/// What a person should know of the scene: warnings, then the decisions of effects.auto.
+std::vector<std::string> Simulation::notes() const {
+  std::vector<std::string> notes = scene_->warnings;
+  notes.insert(notes.end(), scene_->decisions.begin(), scene_->decisions.end());
+  return notes;
 }
 
 }  // namespace bleedsim::daemon

@@ -1,15 +1,17 @@
 // Requests: each is carried out between two steps and answered.
+#include <algorithm>
 #include <fmt/core.h>
 #include <utility>
 
 #include "service/daemon/simulation.h"
+#include "service/daemon/wound_commands.h"
 #include "service/dds/command_limits.h"
 #include "service/dds/overloaded.h"
 
 namespace bleedsim::daemon {
 namespace {
 
-// One for the request at hand, one for the load that may end at any time.
+// One for the request at hand, one for the load or the switch that may end at any time.
 constexpr std::size_t kReplyReserve = 2;
 
 Status loadingNow() { return {StatusCode::wrong_state, "a scene is being loaded: wait for its reply"}; }
@@ -20,7 +22,7 @@ Status faultedNow() { return {StatusCode::wrong_state, "the solver has stopped o
 void Simulation::drainInputs(TimePoint now) {
   // At most one queue full, so that a flood of input cannot keep the world from stepping.
   for (std::size_t i = 0; i < CommandQueue::kCapacity; ++i) {
-    if (ended_ || channels_.replies.room() < kReplyReserve || !channels_.commands.tryPop(input_)) return;
+    if (ended_ || channels_.replies.room() < kReplyReserve + waiting_wounds_.size() || !channels_.commands.tryPop(input_)) return;
     std::visit(dds::Overloaded{[&](dds::DecodedRequest& request) { carryOut(request, now); },
                                [&](InstrumentInput& sample) { takeSample(sample); },
                                [&](const WriterLost& lost) { endInstrumentsOf(lost.writer); }},
@@ -29,24 +31,29 @@ void Simulation::drainInputs(TimePoint now) {
 }
 
 void Simulation::carryOut(dds::DecodedRequest& request, TimePoint now) {
-  const bool was_loading = pending_load_.has_value();
-  const bool was_switching = pending_effect_.has_value();
-  const Result<sph::Applied> done = perform(request, now);
-  if (!done) {
-    answer(request, done.status(), 0);
+  if (mustWait(request)) {
+    holdWound(std::move(request));
     return;
   }
-  if (!was_loading && pending_load_) {
+  const bool was_loading = pending_load_.has_value();
+  const bool was_switching = pending_switch_.has_value();
+  const Result<sph::Applied> done = perform(request, now);
+  if (done && !was_loading && pending_load_) {
     pending_load_->request = std::move(request);
     showState();
     return;
   }
-  if (!was_switching && pending_effect_) {
-    *pending_effect_ = std::move(request);
+  if (done && !was_switching && pending_switch_) {
+    pending_switch_->request = std::move(request);
     return;
   }
-  answer(request, {}, done->object_id);
-  if (request.original) record(dds::RequestTaken{std::move(request.original), done->object_id});
+  settle(request, done);
+}
+
+void Simulation::settle(dds::DecodedRequest& request, const Result<sph::Applied>& done) {
+  const std::uint32_t object_id = done ? done->object_id : 0;
+  answer(request, done.status(), object_id);
+  if (done && request.original) record(dds::RequestTaken{std::move(request.original), object_id});
 }
 
 Result<sph::Applied> Simulation::perform(dds::DecodedRequest& request, TimePoint now) {
@@ -119,13 +126,14 @@ Result<sph::Applied> Simulation::applyToWorld(const sph::Command& command) {
   if (faulted_) return faultedNow();
   const std::size_t wounds_before = world_->wounds().size();
   Result<sph::Applied> applied = world_->apply(command);
+  if (applied) narrowest_wound_ = std::min(narrowest_wound_, patchWidthOf(command));
   if (world_->wounds().size() != wounds_before) showState();
   return applied;
 }
 
 Status Simulation::startLoading(SceneJob job, bool reset, TimePoint now) {
   if (pending_load_) return loadingNow();
-  if (pending_effect_) return {StatusCode::wrong_state, "an effect is being switched: wait for its reply"};
+  if (pending_switch_) return {StatusCode::wrong_state, "an effect is being switched: wait for its reply"};
   // A world that stopped on bad numbers is paused by that alone: what replaces it runs.
   const bool stay_paused = pacer_.paused() && !faulted_;
   pending_load_.emplace(PendingLoad{{}, reset, stay_paused, faulted_});

@@ -6,6 +6,7 @@
 #include <limits>
 #include <variant>
 
+#include "service/scene/feature_size.h"
 #include "service/sph/world_setup.h"
 
 namespace bleedsim::scene {
@@ -14,24 +15,6 @@ namespace {
 constexpr double kCapillaryLengths = 3.0;
 constexpr double kShareOfClotting = 0.01;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double narrowSide(const std::vector<sph::Vec2>& points) {
-  if (points.empty()) return kInfinity;
-  sph::Vec2 lower = points.front();
-  sph::Vec2 upper = points.front();
-  for (const sph::Vec2& point : points) {
-    lower = lower.cwiseMin(point);
-    upper = upper.cwiseMax(point);
-  }
-  return (upper - lower).minCoeff();
-}
-
-struct PatchWidth {
-  double operator()(const sph::DiscPatch& patch) const { return 2.0 * patch.radius; }
-  double operator()(const sph::EllipsePatch& patch) const { return 2.0 * std::min(patch.semi_axis_u, patch.semi_axis_v); }
-  double operator()(const sph::PolygonPatch& patch) const { return narrowSide(patch.points); }
-  double operator()(const sph::PolylinePatch& patch) const { return patch.width; }
-};
 
 struct TissueScale {
   double operator()(const sph::PlaneShape&) const { return kInfinity; }
@@ -50,10 +33,10 @@ struct Feature {
   }
 };
 
-Feature smallestFeature(const sph::WorldDescription& world) {
+Feature smallestFeature(const sph::WorldDescription& world, double narrowest_wound) {
   Feature smallest;
   for (std::size_t i = 0; i < world.wounds.size(); ++i) {
-    smallest.take(std::visit(PatchWidth{}, world.wounds[i].shape), fmt::format("wounds[{}]", i));
+    smallest.take(patchWidth(world.wounds[i].shape), fmt::format("wounds[{}]", i));
   }
   for (std::size_t i = 0; i < world.fluid_blocks.size(); ++i) {
     smallest.take((world.fluid_blocks[i].upper - world.fluid_blocks[i].lower).minCoeff(), fmt::format("fluid_blocks[{}]", i));
@@ -61,6 +44,7 @@ Feature smallestFeature(const sph::WorldDescription& world) {
   for (std::size_t i = 0; i < world.tissue.size(); ++i) {
     smallest.take(std::visit(TissueScale{}, world.tissue[i].shape), fmt::format("tissue[{}]", i));
   }
+  smallest.take(narrowest_wound, "a wound by command");
   return smallest;
 }
 
@@ -84,23 +68,27 @@ const std::vector<std::string>& autoNames() {
   return kNames;
 }
 
-AutoDecision decideTension(const sph::WorldDescription& world) {
-  AutoDecision decision{std::string{kAutoTension}, true, {}};
+double tensionReach(const sph::WorldDescription& world) {
   const double g = world.effects.gravity ? world.effects.gravity->acceleration.norm() : 0.0;
-  if (!(g > 0.0)) {
+  if (!(g > 0.0)) return kInfinity;
+  return kCapillaryLengths * std::sqrt(world.effects.surface_tension->coefficient / (world.rest_density * g));
+}
+
+AutoDecision decideTension(const sph::WorldDescription& world, double narrowest_wound) {
+  AutoDecision decision{std::string{kAutoTension}, true, {}};
+  const double reach = tensionReach(world);
+  if (!std::isfinite(reach)) {
     decision.reason = "without gravity nothing outweighs it";
     return decision;
   }
-  const Feature smallest = smallestFeature(world);
+  const Feature smallest = smallestFeature(world, narrowest_wound);
   if (!std::isfinite(smallest.size)) {
     decision.reason = "the scene has no wound, block or tissue to judge it by";
     return decision;
   }
-  const double length = std::sqrt(world.effects.surface_tension->coefficient / (world.rest_density * g));
-  decision.enabled = smallest.size <= kCapillaryLengths * length;
+  decision.enabled = smallest.size <= reach;
   decision.reason = fmt::format("the smallest feature, {} of {:.3g} mm, is {} {:g} capillary lengths, {:.3g} mm", smallest.what,
-                                smallest.size * 1e3, decision.enabled ? "within" : "above", kCapillaryLengths,
-                                kCapillaryLengths * length * 1e3);
+                                smallest.size * 1e3, decision.enabled ? "within" : "above", kCapillaryLengths, reach * 1e3);
   return decision;
 }
 
@@ -126,11 +114,11 @@ AutoDecision decideImplicitViscosity(const sph::WorldDescription& world, double 
 }
 
 std::vector<AutoDecision> applyAuto(const std::vector<std::string>& names, std::optional<double> horizon,
-                                    std::optional<double> speed_of_sound, sph::WorldDescription& world) {
+                                    const std::optional<Session>& session, sph::WorldDescription& world) {
   const auto named = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
   std::vector<AutoDecision> decisions;
   if (named(kAutoTension) && world.effects.surface_tension) {
-    decisions.push_back(decideTension(world));
+    decisions.push_back(decideTension(world, session.value_or(Session{}).narrowest_wound));
     if (!decisions.back().enabled) world.effects.surface_tension.reset();
   }
   if (named(kAutoPlatelets) && world.effects.platelets && horizon) {
@@ -139,7 +127,8 @@ std::vector<AutoDecision> applyAuto(const std::vector<std::string>& names, std::
   }
   // Last: the limits depend on what is left.
   if (named(kAutoImplicit) && world.effects.viscosity) {
-    decisions.push_back(decideImplicitViscosity(world, speed_of_sound.value_or(sph::speedOfSound(world))));
+    const double speed_of_sound = session ? session->speed_of_sound : sph::speedOfSound(world);
+    decisions.push_back(decideImplicitViscosity(world, speed_of_sound));
     if (!decisions.back().enabled) world.effects.viscosity->solve = sph::ViscositySolve::explicit_;
   }
   return decisions;

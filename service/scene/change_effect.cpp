@@ -54,8 +54,7 @@ void leaveAuto(const std::string& name, Effects& effects) {
 
 }  // namespace
 
-Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change,
-                                      std::optional<double> speed_of_sound) {
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change, const Session& session) {
   const google::protobuf::FieldDescriptor* field = findEffect(change.name);
   if (field == nullptr) return unknownEffect(change.name);
   Scene message;
@@ -80,10 +79,20 @@ Result<SceneDescription> changeEffect(const SceneDescription& scene, const Effec
     reflection.ClearField(&effects, field);
     dropDependents(message);
   }
-  Result<SceneDescription> changed = finishScene(message, problems, speed_of_sound);
+  Result<SceneDescription> changed = finishScene(message, problems, session);
   if (!changed) return problems.firstToStatus();
   changed->former_settings = std::move(former);
   return changed;
+}
+
+Result<SceneDescription> decideAgain(const SceneDescription& scene, const Session& session) {
+  Scene message;
+  ProblemList problems;
+  if (!readText(scene.normalized_text, message, problems)) return problems.firstToStatus();
+  Result<SceneDescription> decided = finishScene(message, problems, session);
+  if (!decided) return problems.firstToStatus();
+  decided->former_settings = scene.former_settings;
+  return decided;
 }
 
 }  // namespace bleedsim::scene

@@ -1,9 +1,9 @@
 // An effect of a running scene is switched, or gets other settings.
 #pragma once
 
-#include <optional>
 #include <string>
 
+#include "service/scene/auto_effects.h"
 #include "service/scene/scene.h"
 
 namespace bleedsim::scene {
@@ -16,12 +16,13 @@ struct EffectChange {
   std::string settings;
 };
 
-/// The scene as it reads with the change. not_found: no such effect, with the list; invalid_argument: the first problem of the
-/// settings or of the combination, short enough for a reply.
-/// An effect that goes off takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves
-/// effects.auto: who switches by hand has decided.
-/// `speed_of_sound` (m/s) is that of the world that runs and stays; without it the changed scene's own.
-Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change,
-                                      std::optional<double> speed_of_sound = {});
+/// The scene as it reads with the change, in the session that runs it. not_found: no such effect, with the list;
+/// invalid_argument: the first problem of the settings or of the combination, short enough for a reply. An effect that goes off
+/// takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves effects.auto: who
+/// switches by hand has decided.
+Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change, const Session& session);
+
+/// The scene with the decisions of effects.auto taken anew, because the session knows more than it did.
+Result<SceneDescription> decideAgain(const SceneDescription& scene, const Session& session);
 
 }  // namespace bleedsim::scene

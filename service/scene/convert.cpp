@@ -2,6 +2,7 @@
 
 #include "service/scene/convert_effects.h"
 #include "service/scene/effect_names.h"
+#include "service/scene/fill_defaults.h"
 
 namespace bleedsim::scene {
 namespace {
@@ -102,7 +103,9 @@ sph::WorldDescription convertWorld(const Scene& scene) {
                            .max_fall_or_depth = scene.compressibility().max_fall_or_depth_m()};
   const bool spline = scene.resolution().kernel() == Resolution::CUBIC_SPLINE;
   world.kernel = spline ? sph::KernelType::cubic_spline : sph::KernelType::wendland_c2;
-  world.effects = convertEffects(scene.effects(), spline);
+  Effects effects = scene.effects();
+  if (scene.model() == Scene::LITERAL) fillEffects(effects);  // numbers that this model does not read, but that must be valid
+  world.effects = convertEffects(effects, spline);
   for (const Tissue& tissue : scene.tissue()) world.tissue.push_back(toTissue(tissue));
   for (const Wound& wound : scene.wounds()) world.wounds.push_back(toWound(wound));
   for (const FluidBlock& block : scene.fluid_blocks()) world.fluid_blocks.push_back(toFluidBlock(block));
@@ -128,6 +131,8 @@ SceneDescription convert(const Scene& scene) {
           .normalized_text = {},
           .effects = enabledEffects(scene.effects()),
           .decisions = {},
+          .warnings = {},
+          .tension_below = 0.0,
           .former_settings = {}};
 }
 

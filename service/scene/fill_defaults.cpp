@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "service/scene/number_walk.h"
+#include "service/scene/sound_only.h"
 #include "service/sph/effect_settings.h"
 
 namespace bleedsim::scene {
@@ -58,17 +59,20 @@ void fillDefaults(Scene& scene) {
   if (!scene.has_seed()) scene.set_seed(1);
   if (scene.frame_id().empty()) scene.set_frame_id("bleedsim");
   if (!scene.has_model()) scene.set_model(Scene::SOUND);
-  if (scene.model() == Scene::LITERAL) fillLiteral(*scene.mutable_literal());
+  const bool literal = scene.model() == Scene::LITERAL;
+  if (literal) fillLiteral(*scene.mutable_literal());
   if (scene.has_resolution()) {
     Resolution& resolution = *scene.mutable_resolution();
     if (!resolution.has_support_ratio()) resolution.set_support_ratio(2.0);
-    if (!resolution.has_kernel()) resolution.set_kernel(Resolution::WENDLAND_C2);
+    if (!literal && !resolution.has_kernel()) resolution.set_kernel(Resolution::WENDLAND_C2);
   }
   if (!scene.fluid().has_density_kg_per_m3()) scene.mutable_fluid()->set_density_kg_per_m3(1060.0);
   if (scene.has_compressibility() && !scene.compressibility().has_mach_factor()) {
     scene.mutable_compressibility()->set_mach_factor(10.0);
   }
+  const Effects written = scene.effects();
   fillEffects(*scene.mutable_effects());
+  if (literal) dropSoundOnlyDefaults(written, *scene.mutable_effects());
   for (Tissue& tissue : *scene.mutable_tissue()) fillTissue(tissue);
   for (Wound& wound : *scene.mutable_wounds()) fillWound(wound);
   for (FluidBlock& block : *scene.mutable_fluid_blocks()) block.mutable_velocity_m_per_s();

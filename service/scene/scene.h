@@ -35,7 +35,10 @@ struct SceneDescription {
   std::string normalized_text;         ///< the scene with every default filled in; parses to this description
   std::vector<std::string> effects;    ///< names of the effects that act, in the order of idl/scene.proto
   std::vector<std::string> decisions;  ///< of effects.auto, each with its reason and figures
-  SettingsMemory former_settings;      ///< of effects that were switched while the scene ran, see changeEffect()
+  std::vector<std::string> warnings;   ///< what runs but is known to go wrong, each with what to do
+  /// effects.auto left surface_tension out: a wound as narrow as this calls for it, m. 0: it did not.
+  double tension_below = 0.0;
+  SettingsMemory former_settings;  ///< of effects that were switched while the scene ran, see changeEffect()
 };
 
 /// Reads and checks a scene. invalid_argument with every problem found, one per line: the field's path (or line:column of the

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "service/scene/fill_defaults.h"
 #include "service/scene/number_walk.h"
 
 namespace bleedsim::scene {
@@ -65,8 +66,11 @@ void validate(const Scene& scene, ProblemList& problems) {
   reportNonFinite(scene, problems);
   validateText(scene, problems);
   validateDomain(scene, problems);
-  validateEffects(scene, problems);
-  validateCombinations(scene, problems);
+  Scene complete = scene;
+  fillEffects(*complete.mutable_effects());  // what the literal model does not read has no default in the text
+  validateEffects(complete, problems);
+  validateCombinations(complete, problems);
+  validateLiteralModel(scene, problems);
   validateOutput(scene, problems);
   validateTissue(scene, problems);
   validateWounds(scene, problems);

@@ -19,6 +19,8 @@ void validateDomain(const Scene& scene, ProblemList& problems);
 void validateEffects(const Scene& scene, ProblemList& problems);
 /// Effects that cannot work together, or without something else of the scene.
 void validateCombinations(const Scene& scene, ProblemList& problems);
+/// Under model LITERAL: what that does not read, and what to set instead.
+void validateLiteralModel(const Scene& scene, ProblemList& problems);
 /// Outputs and command bounds.
 void validateOutput(const Scene& scene, ProblemList& problems);
 void validateTissue(const Scene& scene, ProblemList& problems);

@@ -13,20 +13,32 @@
 namespace bleedsim::scene {
 namespace {
 
-/// The cubic spline's passes hold pressure and viscosity only; sweeps exist for Wendland C2 alone.
-void validateSpline(const Effects& effects, ProblemList& problems) {
-  constexpr std::string_view kWhy = "needs resolution.kernel WENDLAND_C2: CUBIC_SPLINE is for pressure and Newtonian viscosity";
-  for (const std::string& name : enabledEffects(effects)) {
-    const bool known = name == "gravity" || name == "pressure" || name == "viscosity" || name == "applied_force";
-    if (!known) problems.add("effects." + name, kWhy);
+/// Why an effect needs Wendland C2; empty if it does not.
+std::string_view whyNotSpline(std::string_view effect) {
+  if (effect == "surface_tension") return "its factor and cut-off are fitted with it";
+  if (effect == "platelets" || effect == "core_radius" || effect == "repulsion") {
+    return "the spline's sums are built without it, to bound the build";
   }
-  if (!effects.has_viscosity()) return;
-  if (effects.viscosity().has_carreau_yasuda()) problems.add("effects.viscosity.carreau_yasuda", kWhy);
-  if (effects.viscosity().has_casson()) problems.add("effects.viscosity.casson", kWhy);
-  if (effects.viscosity().solve() == Viscosity::IMPLICIT) problems.add("effects.viscosity.solve", kWhy);
+  return {};
 }
 
-void validatePlatelets(const Effects& effects, ProblemList& problems) {
+void validateSpline(const Effects& effects, ProblemList& problems) {
+  const auto refuse = [&problems](const std::string& path, std::string_view why) {
+    problems.add(path, fmt::format("needs kernel WENDLAND_C2, because {}", why));
+  };
+  for (const std::string& name : enabledEffects(effects)) {
+    if (const std::string_view why = whyNotSpline(name); !why.empty()) refuse("effects." + name, why);
+  }
+  if (!effects.has_viscosity()) return;
+  constexpr std::string_view kShearRate = "the shear rate is summed with it";
+  if (effects.viscosity().has_carreau_yasuda()) refuse("effects.viscosity.carreau_yasuda", kShearRate);
+  if (effects.viscosity().has_casson()) refuse("effects.viscosity.casson", kShearRate);
+  if (effects.viscosity().solve() == Viscosity::IMPLICIT)
+    refuse("effects.viscosity.solve", "the implicit sweeps are made for it");
+}
+
+void validatePlatelets(const Scene& scene, ProblemList& problems) {
+  const Effects& effects = scene.effects();
   if (!effects.has_viscosity()) {
     problems.add("effects.platelets", "needs viscosity, there is nothing to thicken; add viscosity {} or drop platelets");
     return;
@@ -38,7 +50,12 @@ void validatePlatelets(const Effects& effects, ProblemList& problems) {
   const double fresh = viscosity.has_carreau_yasuda() ? viscosity.carreau_yasuda().zero_shear_pa_s()
                        : viscosity.has_casson()       ? viscosity.casson().plastic_viscosity_pa_s()
                                                       : viscosity.viscosity_pa_s();
-  if (effects.platelets().clot_viscosity_pa_s() < fresh) {
+  if (scene.model() == Scene::LITERAL) {
+    if (!scene.literal().has_thickening_exponent() && scene.literal().thickening_pa_s() < fresh) {
+      problems.add("literal.thickening_pa_s", fmt::format("value {} is below fresh blood's, {} (Pa s): a clot is thicker",
+                                                          scene.literal().thickening_pa_s(), fresh));
+    }
+  } else if (effects.platelets().clot_viscosity_pa_s() < fresh) {
     problems.add("effects.platelets.clot_viscosity_pa_s",
                  fmt::format("value {} is below fresh blood's, {} (Pa s): a clot is thicker",
                              effects.platelets().clot_viscosity_pa_s(), fresh));
@@ -93,6 +110,8 @@ void validateAuto(const Scene& scene, ProblemList& problems) {
       problems.add(path, "platelets are judged by horizon_s, which is missing; add it");
     } else if (name == kAutoImplicit && !effects.has_viscosity()) {
       problems.add(path, "there is no viscosity to decide about; add it or drop the name");
+    } else if (name == kAutoImplicit && (scene.domain().planar() || scene.resolution().kernel() == Resolution::CUBIC_SPLINE)) {
+      problems.add(path, "viscosity is explicit here, because the implicit sweeps are made for Wendland C2 in space; drop it");
     } else if (name == kAutoImplicit && effects.viscosity().solve() == Viscosity::EXPLICIT) {
       problems.add(path, "effects.viscosity.solve is EXPLICIT already; drop one of the two");
     }
@@ -104,10 +123,10 @@ void validateAuto(const Scene& scene, ProblemList& problems) {
 void validateCombinations(const Scene& scene, ProblemList& problems) {
   const Effects& effects = scene.effects();
   if (scene.resolution().kernel() == Resolution::CUBIC_SPLINE) validateSpline(effects, problems);
-  if (effects.has_platelets()) validatePlatelets(effects, problems);
+  if (effects.has_platelets()) validatePlatelets(scene, problems);
   if (effects.has_core_radius()) validatePeriodicReach(scene, problems);
   validateTissueNeeds(scene, problems);
-  validateAuto(scene, problems);
+  if (scene.model() == Scene::SOUND) validateAuto(scene, problems);
 }
 
 }  // namespace bleedsim::scene

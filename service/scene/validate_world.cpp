@@ -7,7 +7,7 @@
 
 #include "service/scene/convert.h"
 #include "service/scene/validate.h"
-#include "service/sph/literal_model.h"
+#include "service/sph/model_rules.h"
 #include "service/sph/world_checks.h"
 #include "service/sph/wound/wound_rules.h"
 
@@ -124,6 +124,25 @@ bool speedKnown(const Scene& scene, const std::vector<int>& sound_wounds, const 
   return true;
 }
 
+Scene withEffects(Scene usable, const Scene& scene) {
+  *usable.mutable_effects() = scene.effects();
+  usable.set_model(scene.model());
+  return usable;
+}
+
+/// What the model does not have, told beside what is wrong with the numbers of the effects. `blocks`: indices in the scene.
+void validateModel(const sph::WorldDescription& world, const std::vector<int>& blocks, ProblemList& problems) {
+  const bool literal_told = problems.concerns("literal");
+  for (const auto& find : {sph::literalProblems, sph::planarProblems}) {
+    for (const sph::ModelProblem& problem : find(world)) {
+      const std::string block = problem.block ? fmt::format("fluid_blocks[{}]", blocks[*problem.block]) : std::string{};
+      const std::string path = block + problem.field;
+      if (problems.concerns(path) || (literal_told && path.starts_with("literal."))) continue;
+      problems.add(path, problem.status.message());
+    }
+  }
+}
+
 }  // namespace
 
 void validateWorld(const Scene& scene, std::optional<double> speed_of_sound, ProblemList& problems) {
@@ -143,6 +162,7 @@ void validateWorld(const Scene& scene, std::optional<double> speed_of_sound, Pro
     usable.clear_model();
   }
   const sph::WorldDescription world = convertWorld(usable);
+  validateModel(effects_sound ? world : convertWorld(withEffects(usable, scene)), blocks.indices, problems);
 
   double speed = std::numeric_limits<double>::infinity();  // no wound is too fast
   if (speed_of_sound) {
@@ -160,8 +180,6 @@ void validateWorld(const Scene& scene, std::optional<double> speed_of_sound, Pro
                  fmt::format("value {} is out of range, allowed more than 0 to {} (Pa s) where platelets or a rheology act",
                              blocks.members[static_cast<int>(i)].viscosity_pa_s(), kViscosity.upper));
   }
-  if (Status status = sph::checkLiteral(world); !status.ok()) problems.add("model", status.message());
-  if (Status status = sph::checkPlanar(world); !status.ok()) problems.add("domain.planar", status.message());
 }
 
 }  // namespace bleedsim::scene

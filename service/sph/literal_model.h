@@ -20,14 +20,13 @@
 //   bounds          on speed and acceleration as in the sound model, each use counted; no other clamp
 //   (28)            sums accelerations: a_i of (36) is f/m
 //   h               one for all particles without core_radius
-// One layer (WorldDescription::planar) is a domain of both models; see checkPlanar.
+// One layer (WorldDescription::planar) is a domain of both models; see model_rules.h.
 #pragma once
 
 #include "service/sph/effects/literal_set.h"
 #include "service/sph/passes/literal_job.h"
 #include "service/sph/rest_lattice.h"
 #include "service/sph/world_description.h"
-#include "service/status/status.h"
 
 namespace bleedsim::sph {
 
@@ -56,11 +55,6 @@ double literalTimeStep(const WorldDescription& description, double speed_of_soun
 template <class Real>
 LiteralJob<Real> literalJob(const WorldDescription& description, const RestLattice& lattice, double speed_of_sound,
                             bool viscosity_varies);
-
-/// Refuses, with the reason, what the literal model does not have. Nothing is checked in the sound model.
-Status checkLiteral(const WorldDescription& description);
-/// Refuses, with the reason, what a planar world does not have. Nothing is checked in another.
-Status checkPlanar(const WorldDescription& description);
 
 extern template LiteralJob<float> literalJob(const WorldDescription&, const RestLattice&, double, bool);
 extern template LiteralJob<double> literalJob(const WorldDescription&, const RestLattice&, double, bool);

@@ -9,6 +9,7 @@
 #include "service/sph/effects/literal_list.h"
 #include "service/sph/effects/platelets.h"
 #include "service/sph/effects/rheology.h"
+#include "service/sph/model_rules.h"
 #include "service/sph/seeding.h"
 #include "service/sph/world_checks.h"
 #include "service/sph/world_core.h"
@@ -88,8 +89,7 @@ Status checkDescription(const WorldDescription& d, const WorldOptions& options) 
     return invalid("the sound model's kernel must be Wendland C2 or the cubic spline");
   }
   if (Status status = checkEffects(d.effects); !status.ok()) return status;
-  if (Status status = checkLiteral(d); !status.ok()) return status;
-  if (Status status = checkPlanar(d); !status.ok()) return status;
+  if (Status status = checkModel(d); !status.ok()) return status;
   if (Status status = checkEffectSet(d); !status.ok()) return status;
   const double h = d.supportRadius();
   const double c0 = options.speed_of_sound.value_or(speedOfSound(d));
@@ -194,19 +194,25 @@ std::string_view counterName(Counter counter) { return kCounterNames[static_cast
 
 std::span<const EffectInfo> effectCatalog() {
   static constexpr auto kCatalog = [] {
-    std::array<EffectInfo, kEffects.size()> catalog{};
+    std::array<EffectInfo, kEffects.size() + kEffectParts.size()> catalog{};
     for (std::size_t i = 0; i < kEffects.size(); ++i) {
       catalog[i] = kEffects[i].info;
       catalog[i].literal = literalText(catalog[i].name);
     }
+    for (std::size_t i = 0; i < kEffectParts.size(); ++i) catalog[kEffects.size() + i] = kEffectParts[i].info;
     return catalog;
   }();
   return kCatalog;
 }
 
 bool effectEnabled(const WorldDescription& description, std::string_view name) {
-  const auto row = std::find_if(kEffects.begin(), kEffects.end(), [name](const EffectRow& e) { return e.info.name == name; });
-  return row != kEffects.end() && row->slot.present(description.effects);
+  for (const EffectRow& row : kEffects) {
+    if (row.info.name == name) return row.slot.present(description.effects);
+  }
+  for (const PartRow& row : kEffectParts) {
+    if (row.info.name == name) return row.acts(description);
+  }
+  return false;
 }
 
 }  // namespace bleedsim::sph

@@ -129,6 +129,9 @@ class World {
   /// Acts before the next step. A refusal leaves the state untouched and says why and what would be accepted.
   virtual Result<Applied> apply(const Command& command) = 0;
 
+  /// What apply() would answer to a command of a wound now; nothing changes. ok for other commands.
+  virtual Status checkWound(const Command& command) const = 0;
+
   /// Advances by dt = min(stable dt, dt_limit). invalid_argument unless dt_limit > 0; internal once the state is not finite
   /// (the world is then faulted and stays as it is).
   virtual Status step(double dt_limit) = 0;

@@ -368,6 +368,14 @@ Result<Applied> WorldCore<Real>::apply(const Command& command) {
 }
 
 template <class Real>
+Status WorldCore<Real>::checkWound(const Command& command) const {
+  if (const auto* add = std::get_if<AddWound>(&command)) return wounds_.check(*add);
+  if (const auto* update = std::get_if<UpdateWound>(&command)) return wounds_.check(*update);
+  if (const auto* remove = std::get_if<RemoveWound>(&command)) return wounds_.check(*remove);
+  return {};
+}
+
+template <class Real>
 void WorldCore<Real>::withdraw(const Throat& throat) {
   Real* a = passes_.acceleration();
   std::uint32_t kept = 0;

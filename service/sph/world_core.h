@@ -50,6 +50,7 @@ class WorldCore final : public World {
   Status populate();
 
   Result<Applied> apply(const Command& command) override;
+  Status checkWound(const Command& command) const override;
   Status step(double dt_limit) override;
   std::uint64_t stepCount() const override { return steps_; }
   double time() const override { return time_; }

@@ -27,7 +27,7 @@ WoundSet::WoundSet(const WorldDescription& description, double speed_of_sound)
   reach_squared_.reserve(max_wounds_);
 }
 
-Result<std::uint32_t> WoundSet::add(const WoundDescription& wound) {
+Result<WoundSet::Addition> WoundSet::planAddition(const WoundDescription& wound) const {
   if (wounds_.size() >= max_wounds_) {
     return Status{StatusCode::capacity, textOf("there are already ", wounds_.size(), " wounds, the most that this scene allows ",
                                                "(max_wounds); remove one first or load a scene with more")};
@@ -39,20 +39,25 @@ Result<std::uint32_t> WoundSet::add(const WoundDescription& wound) {
   if (Status status = checkClear(throat, 0); !status) return status;
   const Result<double> rate = planRate(wound, throat);
   if (!rate) return rate.status();
-
   throat.setRate(*rate);
+  return Addition{std::move(throat), *rate};
+}
+
+Result<std::uint32_t> WoundSet::add(const WoundDescription& wound) {
+  Result<Addition> plan = planAddition(wound);
+  if (!plan) return plan.status();
   const std::uint32_t id = next_id_++;
-  wound_of_slot_[throat.slot()] = static_cast<std::uint16_t>(wounds_.size());
-  wounds_.push_back({.id = id, .description = wound, .throat = std::move(throat)});
-  states_.push_back({.id = id, .emitted = 0.0, .flow = *rate * particle_volume_});
+  wound_of_slot_[plan->throat.slot()] = static_cast<std::uint16_t>(wounds_.size());
+  wounds_.push_back({.id = id, .description = wound, .throat = std::move(plan->throat)});
+  states_.push_back({.id = id, .emitted = 0.0, .flow = plan->rate * particle_volume_});
   refreshReach();
   return id;
 }
 
-Status WoundSet::update(const UpdateWound& change, const WithdrawThroat& withdraw) {
+Result<WoundSet::Revision> WoundSet::planRevision(const UpdateWound& change) const {
   const std::size_t index = indexOf(change.wound_id);
   if (index == wounds_.size()) return unknown(change.wound_id);
-  Wound& wound = wounds_[index];
+  const Wound& wound = wounds_[index];
   WoundDescription next = wound.description;
   if (change.name) next.name = *change.name;
   if (change.position) next.position = *change.position;
@@ -72,16 +77,30 @@ Status WoundSet::update(const UpdateWound& change, const WithdrawThroat& withdra
   }
   const Result<double> rate = planRate(next, reopened ? *reopened : wound.throat);
   if (!rate) return rate.status();
+  return Revision{index, std::move(next), std::move(reopened), *rate};
+}
 
-  if (reopened) {
-    withdrawThroat(index, withdraw);
-    wound.throat = std::move(*reopened);
+Status WoundSet::update(const UpdateWound& change, const WithdrawThroat& withdraw) {
+  Result<Revision> plan = planRevision(change);
+  if (!plan) return plan.status();
+  Wound& wound = wounds_[plan->index];
+  if (plan->reopened) {
+    withdrawThroat(plan->index, withdraw);
+    wound.throat = std::move(*plan->reopened);
   }
-  wound.throat.setRate(*rate);
-  wound.description = std::move(next);
-  states_[index].flow = *rate * particle_volume_;
+  wound.throat.setRate(plan->rate);
+  wound.description = std::move(plan->description);
+  states_[plan->index].flow = plan->rate * particle_volume_;
   refreshReach();
   return {};
+}
+
+Status WoundSet::check(const AddWound& change) const { return planAddition(change.wound).status(); }
+
+Status WoundSet::check(const UpdateWound& change) const { return planRevision(change).status(); }
+
+Status WoundSet::check(const RemoveWound& change) const {
+  return indexOf(change.wound_id) == wounds_.size() ? unknown(change.wound_id) : Status{};
 }
 
 Status WoundSet::remove(std::uint32_t id, const WithdrawThroat& withdraw) {

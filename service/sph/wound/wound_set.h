@@ -42,6 +42,11 @@ class WoundSet {
   /// not_found: no such wound. What it emitted stays in the totals.
   Status remove(std::uint32_t id, const WithdrawThroat& withdraw);
 
+  /// What add(), update() and remove() would answer now; nothing changes.
+  Status check(const AddWound& change) const;
+  Status check(const UpdateWound& change) const;
+  Status check(const RemoveWound& change) const;
+
   /// Moves every column to the end of a step of `dt` s; see Throat::advance. Wounds act in the order of their ids. Tagged
   /// particles then take their state from kinematics(). Allocates nothing.
   template <class Place>
@@ -90,6 +95,19 @@ class WoundSet {
     std::uint64_t emitted = 0;
   };
 
+  struct Addition {
+    Throat throat;
+    double rate = 0.0;  // particles/s
+  };
+  struct Revision {
+    std::size_t index = 0;
+    WoundDescription description;
+    std::optional<Throat> reopened;
+    double rate = 0.0;  // particles/s
+  };
+
+  Result<Addition> planAddition(const WoundDescription& wound) const;
+  Result<Revision> planRevision(const UpdateWound& change) const;
   std::size_t indexOf(std::uint32_t id) const;
   Status unknown(std::uint32_t id) const;
   Status checkNameAndDrive(const WoundDescription& wound, std::uint32_t except_id) const;

@@ -173,9 +173,15 @@ TEST_F(ServiceTest, DecisionsOfAutoAreToldAtLoad) {
   EXPECT_THAT(head.text, HasSubstr("platelets {"));
   const StatusHead status = probe.status();
   EXPECT_THAT(status.text, HasSubstr("auto: platelets off: the horizon, 0.01 s, is below 1 %"));
-  EXPECT_THAT(status.text, HasSubstr("auto: surface_tension stays on: the smallest feature, wounds[0] of 6 mm"));
-  const bleed_v1_Journal entry =
-      probe.journal([](const bleed_v1_Journal& journal) { return journal.body._d == bleed_v1_JOURNAL_DECISION; });
+  EXPECT_THAT(status.text, HasSubstr("auto: surface_tension on: the smallest feature, wounds[0] of 6 mm"));
+  EXPECT_THAT(status.text, HasSubstr("warning: surface_tension: drops boil at support_ratio 2; use 2.5 or more"));
+  const auto told = [&probe](std::string_view beginning) {
+    return probe.journal([beginning](const bleed_v1_Journal& journal) {
+      return journal.body._d == bleed_v1_JOURNAL_DECISION && std::string_view{journal.body._u.decision}.starts_with(beginning);
+    });
+  };
+  EXPECT_EQ(told("warning: surface_tension").step, 0U);
+  const bleed_v1_Journal entry = told("auto: ");
   EXPECT_EQ(entry.step, 0U);
   EXPECT_THAT(entry.body._u.decision, HasSubstr("auto: "));
 }

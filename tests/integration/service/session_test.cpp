@@ -123,7 +123,7 @@ TEST_F(ServiceTest, ChecksASceneWithoutRunningIt) {
 TEST_F(ServiceTest, ListsTheEffectsOfAScene) {
   test::ChildProcess daemon{daemonCommand("list", {"--list-effects"})};
   EXPECT_EQ(daemon.wait(), 0);
-  EXPECT_THAT(daemon.output(), testing::AllOf(HasSubstr("viscosity"), HasSubstr("on ")));
+  EXPECT_THAT(daemon.output(), testing::AllOf(HasSubstr("on         viscosity"), HasSubstr("off        surface_tension")));
 }
 
 }  // namespace

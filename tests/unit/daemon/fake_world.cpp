@@ -12,15 +12,25 @@ LoadedScene build(std::shared_ptr<const scene::SceneDescription> scene, std::sha
   return {std::move(scene), std::move(world), std::move(frames)};
 }
 
+Result<LoadedScene> decided(const SceneJob& job, std::shared_ptr<FakeLog> log) {
+  if (job.known->name == "stuck") return Status{StatusCode::internal, "no memory for another world"};
+  auto scene = std::make_shared<scene::SceneDescription>(*job.known);
+  scene->effects.emplace_back("surface_tension");
+  scene->decisions = {"auto: surface_tension on"};
+  scene->tension_below = 0.0;
+  return build(std::move(scene), std::move(log));
+}
+
 Result<LoadedScene> switched(const SceneJob& job, std::shared_ptr<FakeLog> log) {
-  const scene::EffectChange& change = job.effect->change;
+  log->session = job.effect->session;
+  if (!job.effect->change) return decided(job, std::move(log));
+  const scene::EffectChange& change = *job.effect->change;
   if (change.settings == "bad") return Status{StatusCode::invalid_argument, "effects.x: value bad"};
   auto scene = std::make_shared<scene::SceneDescription>(*job.known);
   std::erase(scene->effects, change.name);
   if (change.enabled) scene->effects.push_back(change.name);
   scene->normalized_text += (change.enabled ? "+" : "-") + change.name;
   if (change.settings == "decide") scene->decisions.emplace_back("auto: decided");
-  log->speed_of_sound = job.effect->speed_of_sound;
   return build(std::move(scene), std::move(log));
 }
 
@@ -28,6 +38,10 @@ Result<LoadedScene> switched(const SceneJob& job, std::shared_ptr<FakeLog> log) 
 
 FakeWorld::FakeWorld(sph::WorldDescription description, std::shared_ptr<FakeLog> log)
     : description_{std::move(description)}, log_{std::move(log)} {}
+
+Status FakeWorld::checkWound(const sph::Command&) const {
+  return log_->refuse_wounds ? Status{StatusCode::invalid_argument, "the fake world bears no wounds"} : Status{};
+}
 
 Result<sph::Applied> FakeWorld::apply(const sph::Command& command) {
   log_->applied.emplace_back(steps_, command);
@@ -40,6 +54,7 @@ Result<sph::Applied> FakeWorld::apply(const sph::Command& command) {
     log_->forces.erase(removed->key);
     return sph::Applied{};
   }
+  if (Status possible = checkWound(command); !possible) return possible;
   if (std::holds_alternative<sph::AddWound>(command)) {
     wounds_.push_back({static_cast<std::uint32_t>(wounds_.size() + 1), 0.0, 0.0});
     return sph::Applied{wounds_.back().id};
@@ -92,6 +107,10 @@ LoadedScene fakeScene(const std::string& name, std::shared_ptr<FakeLog> log) {
   scene->normalized_text = name;
   scene->frame_rate = 10.0;
   scene->world.capacity = 8;
+  if (name == "no tension" || name == "stuck") {
+    scene->tension_below = 0.005;
+    scene->decisions = {"auto: surface_tension off"};
+  }
   return build(std::move(scene), std::move(log));
 }
 

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct FakeLog {
   std::uint64_t fail_at_step = 0;  ///< the step that fails, 0: none
   bool refuse_adoption = false;
   int adoptions = 0;
-  double speed_of_sound = 0.0;  ///< that the last switched world was built with
+  bool refuse_wounds = false;
+  std::optional<scene::Session> session;  ///< that the last switched world was built for
 };
 
 class FakeWorld final : public sph::World {
@@ -28,6 +30,7 @@ class FakeWorld final : public sph::World {
   FakeWorld(sph::WorldDescription description, std::shared_ptr<FakeLog> log);
 
   Result<sph::Applied> apply(const sph::Command& command) override;
+  Status checkWound(const sph::Command& command) const override;
   Status step(double dt_limit) override;
   std::uint64_t stepCount() const override { return steps_; }
   double time() const override { return static_cast<double>(steps_) * kDt; }
@@ -57,7 +60,8 @@ class FakeWorld final : public sph::World {
 LoadedScene fakeScene(const std::string& name, std::shared_ptr<FakeLog> log);
 
 /// Loads any text as a scene of that name; "broken" has problems, a known scene is made anew. Effects of any name are switched;
-/// the settings "bad" are refused, "decide" bring a decision.
+/// the settings "bad" are refused, "decide" bring a decision. effects.auto has left surface_tension out of the scene "no tension"
+/// for wounds above 5 mm, and leaves nothing else to decide; of "stuck", it cannot bring it back.
 SceneFactory fakeFactory(std::shared_ptr<FakeLog> log);
 
 }  // namespace bleedsim::daemon

@@ -39,7 +39,7 @@ TEST_F(SwitchingTest, TheNewWorldGoesOnWhereTheOldOneWas) {
   EXPECT_EQ(done.code, dds::ReplyCode::accepted) << done.reason;
   EXPECT_EQ(done.epoch, epoch);
   EXPECT_EQ(log_->adoptions, 1);
-  EXPECT_EQ(log_->speed_of_sound, 3.0) << "the speed of sound is kept";
+  EXPECT_EQ(log_->session->speed_of_sound, 3.0) << "the speed of sound is kept";
   EXPECT_EQ(simulation_->world().wounds().size(), 1U);
   EXPECT_EQ(simulation_->world().stepCount(), done.applied_step) << "the tick that switched went on to the next step";
   EXPECT_EQ(simulation_->state(), dds::SessionState::running);

@@ -7,6 +7,7 @@
 
 #include "effects_text.h"
 #include "scene_text.h"
+#include "service/scene/change_effect.h"
 #include "service/scene/scene.h"
 #include "service/sph/world.h"
 
@@ -52,6 +53,21 @@ TEST(DecideTension, LooksAtEveryKindOfFeature) {
   }));
   EXPECT_TRUE(with([](auto& w) { w.tissue.push_back({.name = "o", .shape = sph::BowlShape{{0, 0, 0}, 0.1, 0.006}}); }));
   EXPECT_FALSE(with([](auto& w) { w.tissue.push_back({.name = "p", .shape = sph::PlaneShape{}}); }));
+}
+
+TEST(DecideTension, TakesWoundsByCommandIntoAccount) {
+  EXPECT_FALSE(decideTension(withWound(0.05), 0.0068).enabled);
+  const AutoDecision narrow = decideTension(withWound(0.05), 0.001);
+  EXPECT_TRUE(narrow.enabled);
+  EXPECT_THAT(narrow.reason, HasSubstr("a wound by command of 1 mm, is within"));
+}
+
+TEST(DecideTension, JudgesASlitByItsWidthWhateverItsDirection) {
+  sph::WorldDescription world = withWound(0.05);
+  world.wounds[0].shape = sph::PolygonPatch{{{0.0, 0.0}, {0.0007, 0.0}, {0.0207, 0.02}, {0.02, 0.02}}};
+  const AutoDecision slit = decideTension(world);
+  EXPECT_TRUE(slit.enabled) << slit.reason;
+  EXPECT_THAT(slit.reason, HasSubstr("wounds[0] of 0.495 mm"));  // 0.7 mm/sqrt 2
 }
 
 TEST(DecideTension, StaysOnWithoutGravityOrFeature) {
@@ -119,6 +135,28 @@ TEST(DecideImplicitViscosity, ComparesTheExplicitLimitWithTheOthers) {
   EXPECT_FALSE(decideImplicitViscosity(repelled, 4.0).enabled);
 }
 
+// The solver's own limits: those of the smallest reach, of harder contacts and of platelets.
+TEST(DecideImplicitViscosity, KnowsTheLimitsOfTheOtherEffects) {
+  // A quarter of the limit with half the reach: 0.25 x 7.632e-4/mu is below 0.2 ms from 0.954 Pa s on.
+  sph::WorldDescription shrunk = viscous(0.96);
+  EXPECT_FALSE(decideImplicitViscosity(shrunk, 4.0).enabled);
+  shrunk.effects.core_radius = sph::CoreRadiusSettings{.smallest = 0.5};
+  EXPECT_TRUE(decideImplicitViscosity(shrunk, 4.0).enabled);
+  shrunk.effects.viscosity->viscosity = 0.95;
+  EXPECT_FALSE(decideImplicitViscosity(shrunk, 4.0).enabled);
+  // Contacts four times as stiff: 0.1/2 dx/c0 = 0.025 ms, which 7.632e-4/mu is below from 30.5 Pa s on; 0.05 ms from 15.3.
+  sph::WorldDescription hard = viscous(20.0);
+  hard.effects.repulsion.emplace();
+  EXPECT_TRUE(decideImplicitViscosity(hard, 4.0).enabled);
+  hard.effects.repulsion->strength *= 4.0;
+  EXPECT_FALSE(decideImplicitViscosity(hard, 4.0).enabled);
+  // 0.045 h^2/k = 7.2e-7/k = 0.1 ms of platelets, which 7.632e-4/mu is below from 7.6 Pa s on.
+  sph::WorldDescription spreading = viscous(5.0);
+  EXPECT_TRUE(decideImplicitViscosity(spreading, 4.0).enabled);
+  spreading.effects.platelets = sph::PlateletSettings{.diffusivity = 7.2e-3, .clot_viscosity = 6.0};
+  EXPECT_FALSE(decideImplicitViscosity(spreading, 4.0).enabled);
+}
+
 TEST(DecideImplicitViscosity, LooksAtTheThickestBlood) {
   sph::WorldDescription clotting = viscous(0.004);
   EXPECT_FALSE(decideImplicitViscosity(clotting, 4.0).enabled);
@@ -144,13 +182,33 @@ TEST(ApplyAuto, LeavesOutOnlyWhatItWasAskedAbout) {
   EXPECT_EQ(world.effects.viscosity->solve, sph::ViscositySolve::explicit_);
 }
 
+TEST(ParseScene, KeepsWhatWouldBringTensionBack) {
+  const std::string text = std::string{kLeastScene} + "effects { gravity {} surface_tension {} auto: 'surface_tension' }" +
+                           "fluid_blocks { lower_m { z: 0.01 } upper_m { x: 0.02 y: 0.02 z: 0.03 } }";
+  const Result<SceneDescription> off = parseScene(replaced(text, "capacity: 10", "capacity: 2000"));
+  ASSERT_TRUE(off.ok()) << off.status().message();
+  EXPECT_THAT(off->effects, testing::ElementsAre("gravity"));
+  EXPECT_NEAR(off->tension_below, 3.0 * std::sqrt(0.0526 / (1060.0 * 9.81)), 1e-12);
+  const Result<SceneDescription> on = decideAgain(*off, {3.0, 0.001});
+  ASSERT_TRUE(on.ok()) << on.status().message();
+  EXPECT_THAT(on->effects, testing::ElementsAre("gravity", "surface_tension"));
+  EXPECT_EQ(on->tension_below, 0.0);
+  EXPECT_THAT(on->decisions,
+              testing::ElementsAre(HasSubstr("auto: surface_tension on: the smallest feature, a wound by command")));
+  EXPECT_EQ(on->normalized_text, off->normalized_text);
+  // Another effect is switched by hand: the wound is not forgotten.
+  const Result<SceneDescription> later = changeEffect(*on, {"pressure", true, ""}, {3.0, 0.001});
+  ASSERT_TRUE(later.ok()) << later.status().message();
+  EXPECT_THAT(later->effects, testing::Contains("surface_tension"));
+}
+
 TEST(ParseScene, TellsItsDecisions) {
   std::string text = replaced(kEffectScene, "auto: \"platelets\"", "auto: [\"surface_tension\", \"platelets\"]");
   text = replaced(text, "horizon_s: 20", "horizon_s: 0.001");
   const Result<SceneDescription> scene = parseScene(text);
   ASSERT_TRUE(scene.ok()) << scene.status().message();
   ASSERT_EQ(scene->decisions.size(), 2u);
-  EXPECT_THAT(scene->decisions[0], HasSubstr("auto: surface_tension stays on: the smallest feature"));
+  EXPECT_THAT(scene->decisions[0], HasSubstr("auto: surface_tension on: the smallest feature"));
   EXPECT_THAT(scene->decisions[1], HasSubstr("auto: platelets off: the horizon, 0.001 s"));
   EXPECT_FALSE(scene->world.effects.platelets.has_value());
   EXPECT_THAT(scene->effects, testing::Not(testing::Contains("platelets")));

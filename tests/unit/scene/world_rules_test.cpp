@@ -135,8 +135,10 @@ TEST(WorldRules, ARunningWorldKeepsItsSpeedOfSoundWhenAnEffectIsSwitched) {
   ASSERT_TRUE(scene.ok()) << scene.status().message();
   const double speed = sph::speedOfSound(scene->world);
   const EffectChange off{.name = "gravity", .enabled = false, .settings = {}};
-  EXPECT_TRUE(changeEffect(*scene, off, speed).ok());
-  const Result<SceneDescription> alone = changeEffect(*scene, off);
+  EXPECT_TRUE(changeEffect(*scene, off, {.speed_of_sound = speed}).ok());
+  sph::WorldDescription without = scene->world;
+  without.effects.gravity.reset();
+  const Result<SceneDescription> alone = changeEffect(*scene, off, {.speed_of_sound = sph::speedOfSound(without)});
   ASSERT_FALSE(alone.ok());
   EXPECT_THAT(alone.status().message(), StartsWith("wounds[0].flow_ml_per_s: value 30 is out of range"));
 }

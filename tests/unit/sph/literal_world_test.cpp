@@ -149,7 +149,7 @@ TEST(LiteralRefusal, NamesNumbersOutOfRange) {
   expect("stiffness", [](LiteralSettings& s) { s.stiffness = 0.0; });
   expect("tension", [](LiteralSettings& s) { s.tension = -1.0; });
   expect("normal_cutoff", [](LiteralSettings& s) { s.normal_cutoff = std::nan(""); });
-  expect("thickening ", [](LiteralSettings& s) { s.thickening = 0.0; });
+  expect("thickening:", [](LiteralSettings& s) { s.thickening = 0.0; });
   expect("thickening_exponent", [](LiteralSettings& s) { s.thickening_exponent = -1.0; });
   expect("diffusivity", [](LiteralSettings& s) { s.platelet_diffusivity = kFree; });
   expect("repulsion", [](LiteralSettings& s) { s.repulsion = -1.0; });
@@ -234,7 +234,9 @@ TEST(Planar, RefusesWhatHasThreeDimensions) {
 }
 
 TEST(EffectCatalog, SaysWhatEachEffectIsInTheLiteralModel) {
-  for (const EffectInfo& info : effectCatalog()) { EXPECT_EQ(info.literal.empty(), info.name == "adhesion") << info.name; }
+  for (const EffectInfo& info : effectCatalog()) {
+    EXPECT_EQ(info.literal.empty(), info.name == "adhesion" || info.name == "wetting") << info.name;
+  }
 }
 
 }  // namespace

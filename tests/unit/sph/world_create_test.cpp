@@ -196,7 +196,7 @@ TEST(Effects, TheCatalogueNamesEachWithItsSource) {
     EXPECT_FALSE(effect.deviation.empty());
   }
   EXPECT_EQ(names, (std::set<std::string_view>{"gravity", "pressure", "viscosity", "platelets", "surface_tension", "core_radius",
-                                               "repulsion", "adhesion", "applied_force"}));
+                                               "repulsion", "adhesion", "applied_force", "wetting", "slip"}));
 }
 
 TEST(Effects, TheirSettingsEnableThem) {
@@ -224,7 +224,13 @@ TEST(Effects, TheirSettingsEnableThem) {
   only_enabled("surface_tension");
   description.effects.adhesion.emplace();
   only_enabled("adhesion");
-  EXPECT_FALSE(effectEnabled(description, "surface_tension"));
+  description.tissue.push_back({.name = "plane", .shape = PlaneShape{}, .slip = 0.1});
+  only_enabled("slip");
+  description.tissue[0].slip = 0.0;
+  description.effects.surface_tension.emplace().contact_angle = 1.0;
+  EXPECT_TRUE(effectEnabled(description, "wetting"));
+  EXPECT_TRUE(effectEnabled(description, "surface_tension"));
+  EXPECT_FALSE(effectEnabled(description, "slip"));
   EXPECT_FALSE(effectEnabled(description, ""));
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <numbers>
+#include <vector>
 
 #include "tests/support/scenes.h"
 
@@ -37,6 +38,29 @@ UpdateWound withDrive(std::uint32_t id, const WoundDrive& drive) {
   update.wound_id = id;
   update.drive = drive;
   return update;
+}
+
+TEST(WorldWounds, ACheckAnswersAsTheCommandWouldAndChangesNothing) {
+  const auto world = test::makeWorld(test::woundOnPlane(0.002, 1e-6));
+  ASSERT_TRUE(world->step(1.0).ok());
+  const std::uint64_t before = world->stateHash();
+  AddWound over{world->description().wounds[0]};
+  AddWound beside = over;
+  beside.wound.position.x() += 0.01;
+  UpdateWound elsewhere;
+  elsewhere.wound_id = 1;
+  elsewhere.position = beside.wound.position;
+  const UpdateWound unknown = withDrive(7, FlowDrive{1e-6});
+  const std::vector<Command> commands{over, unknown, RemoveWound{7}, beside, elsewhere, RemoveWound{1}};
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const Status told = world->checkWound(commands[i]);
+    EXPECT_EQ(told.ok(), i >= 3) << i << ": " << told.message();
+  }
+  EXPECT_EQ(world->wounds().size(), 1u);
+  EXPECT_EQ(world->stateHash(), before);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(world->apply(commands[i]).status().message(), world->checkWound(commands[i]).message());
+  }
 }
 
 TEST(WorldWounds, IdsRiseAndAreNeverReused) {
