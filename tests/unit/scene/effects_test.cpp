@@ -224,7 +224,6 @@ const std::vector<Rule>& rules() {
       {"model: SOUND", "model: LITERAL literal { power_1: 4 power_2: 4 }", "literal.power_1: value 4 must be above power_2, 4"},
       // What the literal model lacks, all at once.
       {"model: SOUND", "model: LITERAL",
-       "effects.core_radius: not in model LITERAL, because its kernels have one support radius"},
       {"model: SOUND", "model: LITERAL", "effects.adhesion: not in model LITERAL, because the paper has no equation"},
       {"model: SOUND", "model: LITERAL", "effects.viscosity.carreau_yasuda: not in model LITERAL, because"},
       {"model: SOUND", "model: LITERAL", "effects.viscosity.solve: no implicit solve in model LITERAL, because"},
@@ -245,6 +244,9 @@ const std::vector<Rule>& rules() {
       {"model: SOUND", "model: LITERAL", "effects.platelets.shear_gate_per_s: is of model SOUND; leave it out, because (27)"},
       {"model: SOUND", "model: LITERAL", "effects.platelets.clot_speedup: is of model SOUND; leave it out, because (27)"},
       {"model: SOUND", "model: LITERAL", "effects.platelets.clot_viscosity_pa_s: is of model SOUND; set literal.thickening_pa_s"},
+      {"model: SOUND", "model: LITERAL", "effects.core_radius.smallest: is of model SOUND; leave it out, because"},
+      {"model: SOUND", "model: LITERAL", "effects.core_radius.largest: is of model SOUND; leave it out, because"},
+      {"model: SOUND", "model: LITERAL", "effects.core_radius.relaxation: is of model SOUND; leave it out, because"},
       {"model: SOUND", "model: LITERAL", "effects.repulsion.strength: is of model SOUND; set literal.repulsion_n_m2"},
       {"model: SOUND", "model: LITERAL", "effects.repulsion.contact_distance: is of model SOUND; set literal.contact_radius"},
       {"model: SOUND", "model: LITERAL", "effects.repulsion.power_1: is of model SOUND; set literal.power_1"},
