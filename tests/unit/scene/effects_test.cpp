@@ -223,7 +223,6 @@ const std::vector<Rule>& rules() {
        "literal.contact_radius: value 0.6 is out of range, allowed 0.05 to 0.5 (spacings)"},
       {"model: SOUND", "model: LITERAL literal { power_1: 4 power_2: 4 }", "literal.power_1: value 4 must be above power_2, 4"},
       // What the literal model lacks, all at once.
-      {"model: SOUND", "model: LITERAL",
       {"model: SOUND", "model: LITERAL", "effects.adhesion: not in model LITERAL, because the paper has no equation"},
       {"model: SOUND", "model: LITERAL", "effects.viscosity.carreau_yasuda: not in model LITERAL, because"},
       {"model: SOUND", "model: LITERAL", "effects.viscosity.solve: no implicit solve in model LITERAL, because"},
