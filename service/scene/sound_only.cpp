@@ -19,7 +19,7 @@ struct SoundOnly {
 };
 
 constexpr std::string_view kNoSinks = "leave it out, because (27) only spreads P and nothing lowers it";
-constexpr std::string_view kNoBounds = "leave it out, because the printed (34) is bounded by the grid alone";
+constexpr std::string_view kOwnBounds = "leave it out, because the printed (34) has neither bounds nor relaxation";
 constexpr std::string_view kExplicit = "leave it out, because the printed (25) is solved explicitly";
 
 constexpr std::array<SoundOnly, 21> kSoundOnly{{
@@ -36,9 +36,9 @@ constexpr std::array<SoundOnly, 21> kSoundOnly{{
     {"platelets", "shear_gate_per_s", kNoSinks},
     {"platelets", "clot_speedup", kNoSinks},
     {"platelets", "clot_viscosity_pa_s", "set literal.thickening_pa_s"},
-    {"core_radius", "smallest", kNoBounds},
-    {"core_radius", "largest", kNoBounds},
-    {"core_radius", "relaxation", "leave it out, because (34) holds at once"},
+    {"core_radius", "smallest", kOwnBounds},
+    {"core_radius", "largest", kOwnBounds},
+    {"core_radius", "relaxation", kOwnBounds},
     {"repulsion", "strength", "set literal.repulsion_n_m2"},
     {"repulsion", "contact_distance", "set literal.contact_radius, half of it"},
     {"repulsion", "power_1", "set literal.power_1"},
