@@ -24,7 +24,11 @@ struct LiteralSet {
            (repulsion ? 2 : 0) + (core_radius ? 1 : 0);
   }
   static constexpr LiteralSet at(std::size_t index) {
-    return {static_cast<PressureTerm>(index / 32), (index & 16) != 0, (index & 8) != 0, (index & 4) != 0, (index & 2) != 0,
+    return {static_cast<PressureTerm>(index / 32),
+            (index & 16) != 0,
+            (index & 8) != 0,
+            (index & 4) != 0,
+            (index & 2) != 0,
             (index & 1) != 0};
   }
   /// No term acts in the pair loop: a radius alone moves nothing.

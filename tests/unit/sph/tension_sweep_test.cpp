@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "tests/support/drops.h"
-#include "tests/unit/sph/pass_rig.h"
 #include "tests/support/tension_rig.h"
+#include "tests/unit/sph/pass_rig.h"
 
 namespace bleedsim::sph {
 namespace {
