@@ -108,6 +108,7 @@ class Recorder::Impl {
   PinnedDaemon daemon_;
   Endpoints endpoints_;
   std::optional<Reader<bleed_v1_Frame>> frames_;
+  std::mutex closing_;                 // one close() at a time
   recording::RecordingWriter writer_;  // of the thread, and of close() once that has ended
   RecordingWindow window_;
   Frame checked_;  // reused
@@ -268,6 +269,7 @@ void Recorder::Impl::serve() {
 }
 
 Status Recorder::Impl::close() {
+  const std::lock_guard closing{closing_};
   {
     const std::lock_guard lock{mutex_};
     if (closed_) return *closed_;

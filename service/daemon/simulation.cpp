@@ -113,13 +113,27 @@ void Simulation::showState() {
   channels_.publisher.notify();
 }
 
+/// Whatever still waits for its reply gets one.
+Simulation::Next Simulation::end() {
+  const Status ending{StatusCode::wrong_state, "the session ends: nothing more is carried out"};
+  if (pending_load_) answerLoad(*pending_load_, ending);
+  if (pending_switch_ && pending_switch_->request) answer(*pending_switch_->request, ending, 0);
+  for (const dds::DecodedRequest& request : std::exchange(waiting_wounds_, {})) answer(request, ending, 0);
+  pending_load_.reset();
+  pending_switch_.reset();
+  while (channels_.replies.room() > 0 && channels_.commands.tryPop(input_)) {
+    if (const auto* request = std::get_if<dds::DecodedRequest>(&input_)) answer(*request, ending, 0);
+  }
+  return {Next::Kind::stop, {}};
+}
+
 Simulation::Next Simulation::tick(TimePoint now) {
   finishLoading(now);
   finishSwitching();
   drainInputs(now);
   applyInstruments();
   endSilentInstruments(now);
-  if (ended_ || stop_requested_.load(std::memory_order_relaxed)) return {Next::Kind::stop, {}};
+  if (ended_ || stop_requested_.load(std::memory_order_relaxed)) return end();
 
   const dds::SessionState current = state();
   const bool stepping = current == dds::SessionState::paused && steps_left_ > 0;
@@ -127,7 +141,7 @@ Simulation::Next Simulation::tick(TimePoint now) {
     const double ahead = stepping ? 0.0 : pacer_.secondsAhead(now, world_->time());
     if (ahead <= kWaitGrainSeconds) {
       advance(now);
-      return {ended_ ? Next::Kind::stop : Next::Kind::again, {}};
+      return ended_ ? end() : Next{Next::Kind::again, {}};
     }
     const TimePoint due = now + wallSeconds(ahead);
     return {Next::Kind::wait, std::min(due, nextExpiry().value_or(due))};

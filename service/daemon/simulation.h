@@ -68,6 +68,7 @@ class Simulation {
   void publishFrame(TimePoint now);
   void postScene();
   void showState();
+  Next end();
   void fault(const std::string& reason, TimePoint now);
   std::optional<TimePoint> nextExpiry() const;
   Clock::duration instrumentExpiry() const;
@@ -92,6 +93,7 @@ class Simulation {
   }
 
   // simulation_effects.cpp
+  Status switchingNow() const;
   Status startSwitching(const dds::SetEffect& set);
   void finishSwitching();
   Status takeOver(LoadedScene& next);

@@ -8,9 +8,14 @@
 
 namespace bleedsim::daemon {
 
+Status Simulation::switchingNow() const {
+  if (pending_switch_->request) return {StatusCode::wrong_state, "an effect is being switched: wait for its reply"};
+  return {StatusCode::wrong_state, "surface tension is being switched on for a wound: send this again in a moment"};
+}
+
 Status Simulation::startSwitching(const dds::SetEffect& set) {
   if (pending_load_) return {StatusCode::wrong_state, "a scene is being loaded: wait for its reply"};
-  if (pending_switch_) return {StatusCode::wrong_state, "another effect is being switched: wait for its reply"};
+  if (pending_switch_) return switchingNow();
   if (faulted_) return {StatusCode::wrong_state, "the solver has stopped on bad numbers: reset or load a scene first"};
   pending_switch_.emplace();
   loader_.start(
@@ -37,7 +42,9 @@ void Simulation::finishSwitching() {
   if (pending.request) answer(*pending.request, outcome, 0);
   // Freeing a world takes longer than a step.
   if (finished->ok()) loader_.retire(std::move((*finished)->world));
-  if (pending.request && !faulted_ && anyCallsForTension()) {
+  // The new world was decided on before the wounds that came meanwhile.
+  const bool narrower = outcome && scene_->tension_below > 0.0 && narrowest_wound_ <= scene_->tension_below;
+  if (pending.request && !faulted_ && (narrower || anyCallsForTension())) {
     decideForWounds();
   } else {
     releaseWounds(outcome);

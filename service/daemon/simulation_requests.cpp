@@ -133,7 +133,7 @@ Result<sph::Applied> Simulation::applyToWorld(const sph::Command& command) {
 
 Status Simulation::startLoading(SceneJob job, bool reset, TimePoint now) {
   if (pending_load_) return loadingNow();
-  if (pending_switch_) return {StatusCode::wrong_state, "an effect is being switched: wait for its reply"};
+  if (pending_switch_) return switchingNow();
   // A world that stopped on bad numbers is paused by that alone: what replaces it runs.
   const bool stay_paused = pacer_.paused() && !faulted_;
   pending_load_.emplace(PendingLoad{{}, reset, stay_paused, faulted_});

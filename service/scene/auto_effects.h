@@ -2,8 +2,8 @@
 //
 // rule               | left out when                                    | figures
 // surface_tension    | smallest feature > 3 capillary lengths           | l_c = sqrt(sigma/(rho g)), m; never without gravity
-// platelets          | horizon_s < 1 % of the clotting time             | s until P of the fastest place, at tissue and air, is
-// 1/2 implicit_viscosity | 0.045 h^2 rho/mu_max not below another dt limit  | s; the solver's limits (time_step.h), at rest
+// platelets          | horizon_s < 1 % of the clotting time             | s until P of the fastest place is 1/2
+// implicit_viscosity | 0.045 h^2 rho/mu_max not below another dt limit  | s; the solver's limits (time_step.h), at rest
 //
 // A feature is what blood gets a size by: the narrowest place of a wound's patch (feature_size.h), those that came by command
 // included, the shortest side of a fluid block or of box tissue, the depth and radius of a bowl. Tension shapes blood below about

@@ -299,7 +299,7 @@ void WorldCore<Real>::finishStep(double dt) {
     passes_.setReach(literal_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));
   }
   counter(Counter::tissue_projected) += walls_.project(particles_, shares_, *executor_);
-  if (steps_ % kCoincidenceSteps == 0) {
+  if (!literal_ && steps_ % kCoincidenceSteps == 0) {
     counter(Counter::coincident_parted) += coincidence_.part(grid_, particles_, count_, shares_, *executor_);
   }
   counter(Counter::speed_clamped) += total.speed_clamped;

@@ -4,7 +4,7 @@
 //   pe = (r_i + r_j)/d > 1:  a_i = D/m (pe^n1 - pe^n2)/d^2 along x_i - x_j, and nothing else acts between the two; else 0
 // terms: r contact radius m; d distance m; D N m^2. The paper prints D = 1e5 without a unit.
 // Deviation from the paper: none above d = h/1000; below it d stays there, and one pair gives at most 1e15 m/s^2, so that numbers
-// stay finite. Two particles on one spot have no direction and so no force; neighbors/coincidence.h sets them apart.
+// stay finite. Two particles on one spot have no direction and so no force.
 #if defined(BLEEDSIM_SPH_EFFECTS_LITERAL_REPULSION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BLEEDSIM_SPH_EFFECTS_LITERAL_REPULSION_INL_H_
 #undef BLEEDSIM_SPH_EFFECTS_LITERAL_REPULSION_INL_H_

@@ -2,9 +2,11 @@
 // thousandth of a spacing each; from there on pressure or repulsion acts.
 //
 // The direction follows from the two ids alone, and the two go opposite ways from where they stood: velocities, momentum and the
-// centre of mass stay. Particles that a wound drives stay where their wound has them.
+// centre of mass stay. Particles that a wound drives stay where their wound has them. Not in the literal model: the paper has
+// none.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

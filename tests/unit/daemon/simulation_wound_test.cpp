@@ -67,6 +67,20 @@ TEST_F(WoundTest, ANarrowWoundBringsTensionAtTheStepAtWhichItOpens) {
   EXPECT_EQ(entries[1].step + 1, opened.applied_step);
 }
 
+TEST_F(WoundTest, WhatWaitsAtTheEndIsAnswered) {
+  startScene("no tension");
+  push(disc(0.0005));
+  push(dds::ShutdownSession{});
+  push(dds::Ping{});
+  EXPECT_EQ(tick().kind, Simulation::Next::Kind::stop);
+  EXPECT_EQ(reply().code, dds::ReplyCode::accepted) << "the end itself";
+  for (int i = 0; i < 2; ++i) {
+    const dds::Reply refused = reply();
+    EXPECT_EQ(refused.code, dds::ReplyCode::state);
+    EXPECT_THAT(refused.reason, HasSubstr("the session ends"));
+  }
+}
+
 TEST_F(WoundTest, AWideWoundOpensAtOnce) {
   startScene("no tension");
   EXPECT_EQ(ask(disc(0.01)).code, dds::ReplyCode::accepted);
@@ -213,6 +227,29 @@ TEST_F(WoundTest, TheBloodThatRunsFeelsNoImpulse) {
   EXPECT_NEAR(energy() / before, 1.0, 0.05);
   EXPECT_THAT(channels_.board.read().report.text,
               HasSubstr("auto: surface_tension on: the smallest feature, a wound by command of 6 mm"));
+}
+
+// Without gravity tension stays. The world with gravity is decided on without the wound that opens while it is built.
+TEST_F(WoundTest, AWoundThatCameDuringASwitchCounts) {
+  std::string text = kBlockScene;
+  text.replace(text.find("gravity {} "), 11, "");
+  const SceneFactory factory = worldFactory({});
+  Result<LoadedScene> first = factory({text, {}});
+  ASSERT_TRUE(first.ok()) << first.status().message();
+  simulation_ = std::make_unique<Simulation>(SimulationOptions{{dds::PaceMode::maximum, 1.0}, {}, {}}, std::move(*first), factory,
+                                             channels_, now_);
+  const auto acts = [this](const char* name) { return sph::effectEnabled(simulation_->world().description(), name); };
+  ASSERT_TRUE(acts("surface_tension"));
+  sph::AddWound wound = disc(0.003);
+  wound.wound.position = {0.025, 0.0, 0.0};
+  wound.wound.drive = sph::FlowDrive{1e-7};
+  push(dds::SetEffect{"gravity", true, ""});
+  push(wound);
+  EXPECT_EQ(awaited().key.seq, 2U) << "tension is there";
+  EXPECT_EQ(awaited().code, dds::ReplyCode::accepted);
+  ASSERT_TRUE(acts("gravity"));
+  for (int i = 0; i < 20'000 && !acts("surface_tension"); ++i) tick();
+  EXPECT_TRUE(acts("surface_tension"));
 }
 
 }  // namespace
