@@ -61,8 +61,8 @@ SceneFactory worldFactory(sph::WorldOptions options) {
 }
 
 void SceneLoader::start(SceneJob job) {
-  join();
-  thread_ = std::thread{[this, job = std::move(job)] {
+  thread_ = std::thread{[this, before = std::move(thread_), job = std::move(job)]() mutable {
+    if (before.joinable()) before.join();
     Result<LoadedScene> loaded = factory_(job);
     {
       const std::lock_guard lock{mutex_};
@@ -73,8 +73,10 @@ void SceneLoader::start(SceneJob job) {
 }
 
 void SceneLoader::retire(std::unique_ptr<sph::World> world) {
-  join();
-  thread_ = std::thread{[world = std::move(world)]() mutable { world.reset(); }};
+  thread_ = std::thread{[before = std::move(thread_), world = std::move(world)]() mutable {
+    if (before.joinable()) before.join();
+    world.reset();
+  }};
 }
 
 std::optional<Result<LoadedScene>> SceneLoader::takeFinished() {

@@ -42,7 +42,7 @@ using SceneFactory = std::function<Result<LoadedScene>(const SceneJob&)>;
 /// The factory of the daemon: scene::parseScene and sph::createWorld. All problems of a text go to the log.
 SceneFactory worldFactory(sph::WorldOptions options);
 
-/// One job at a time.
+/// One job at a time, in order. Neither start() nor retire() waits for the one before.
 class SceneLoader {
  public:
   /// `done` is notified when a job has ended.
@@ -51,12 +51,10 @@ class SceneLoader {
   SceneLoader(const SceneLoader&) = delete;
   SceneLoader& operator=(const SceneLoader&) = delete;
 
-  bool busy() const { return thread_.joinable(); }
-  /// Must not be busy.
   void start(SceneJob job);
-  /// Frees a world on the loader's thread. Must not be busy.
+  /// Frees a world on the loader's thread.
   void retire(std::unique_ptr<sph::World> world);
-  /// The outcome of the job once it has ended, which also ends being busy.
+  /// The outcome of the job once it has ended.
   std::optional<Result<LoadedScene>> takeFinished();
 
  private:

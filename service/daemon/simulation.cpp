@@ -118,7 +118,7 @@ Simulation::Next Simulation::end() {
   const Status ending{StatusCode::wrong_state, "the session ends: nothing more is carried out"};
   if (pending_load_) answerLoad(*pending_load_, ending);
   if (pending_switch_ && pending_switch_->request) answer(*pending_switch_->request, ending, 0);
-  for (const dds::DecodedRequest& request : std::exchange(waiting_wounds_, {})) answer(request, ending, 0);
+  for (const WaitingWound& waiting : std::exchange(waiting_wounds_, {})) answer(waiting.request, ending, 0);
   pending_load_.reset();
   pending_switch_.reset();
   while (channels_.replies.room() > 0 && channels_.commands.tryPop(input_)) {

@@ -17,6 +17,7 @@
 #include "service/daemon/instrument_table.h"
 #include "service/daemon/pacer.h"
 #include "service/daemon/scene_loader.h"
+#include "service/daemon/wound_commands.h"
 
 namespace bleedsim::daemon {
 
@@ -59,6 +60,10 @@ class Simulation {
   /// Another world is built beside the one that runs: for a request, or without one for wounds that wait.
   struct PendingSwitch {
     std::optional<dds::DecodedRequest> request;
+  };
+  struct WaitingWound {
+    dds::DecodedRequest request;
+    WoundCommand wound;
   };
 
   // simulation.cpp
@@ -103,10 +108,9 @@ class Simulation {
   std::vector<std::string> notes() const;
 
   // simulation_wounds.cpp
-  bool mustWait(const dds::DecodedRequest& request) const;
-  bool callsForTension(const sph::Command& command) const;
+  bool callsForTension(double width) const;
   bool anyCallsForTension() const;
-  void holdWound(dds::DecodedRequest request);
+  bool holdWound(dds::DecodedRequest& request);
   void decideForWounds();
   void releaseWounds(const Status& switched);
 
@@ -134,7 +138,7 @@ class Simulation {
   std::array<double, static_cast<std::size_t>(sph::Stage::count)> stage_seconds_at_frame_{};
   std::optional<PendingLoad> pending_load_;
   std::optional<PendingSwitch> pending_switch_;                       // at most one of the two: there is one loader
-  std::vector<dds::DecodedRequest> waiting_wounds_;                   // in order, until surface tension is there
+  std::vector<WaitingWound> waiting_wounds_;                          // in order, until surface tension is there
   double narrowest_wound_ = std::numeric_limits<double>::infinity();  // m, of all that came by command in this epoch
   bool faulted_ = false;
   std::string fault_text_;

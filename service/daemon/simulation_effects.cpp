@@ -43,7 +43,7 @@ void Simulation::finishSwitching() {
   // Freeing a world takes longer than a step.
   if (finished->ok()) loader_.retire(std::move((*finished)->world));
   // The new world was decided on before the wounds that came meanwhile.
-  const bool narrower = outcome && scene_->tension_below > 0.0 && narrowest_wound_ <= scene_->tension_below;
+  const bool narrower = outcome && callsForTension(narrowest_wound_);
   if (pending.request && !faulted_ && (narrower || anyCallsForTension())) {
     decideForWounds();
   } else {

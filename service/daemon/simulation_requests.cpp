@@ -31,10 +31,7 @@ void Simulation::drainInputs(TimePoint now) {
 }
 
 void Simulation::carryOut(dds::DecodedRequest& request, TimePoint now) {
-  if (mustWait(request)) {
-    holdWound(std::move(request));
-    return;
-  }
+  if (holdWound(request)) return;
   const bool was_loading = pending_load_.has_value();
   const bool was_switching = pending_switch_.has_value();
   const Result<sph::Applied> done = perform(request, now);

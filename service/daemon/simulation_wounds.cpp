@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "service/daemon/simulation.h"
-#include "service/daemon/wound_commands.h"
 
 namespace bleedsim::daemon {
 namespace {
@@ -14,41 +13,39 @@ constexpr std::size_t kMaxWaiting = 64;
 
 }  // namespace
 
-bool Simulation::mustWait(const dds::DecodedRequest& request) const {
-  if (pending_load_ || faulted_) return false;  // to be refused
-  const std::optional<sph::Command> command = woundCommand(request.action);
-  return command && (!waiting_wounds_.empty() || callsForTension(*command));
-}
-
-bool Simulation::callsForTension(const sph::Command& command) const {
-  return scene_->tension_below > 0.0 && patchWidthOf(command) <= scene_->tension_below;
-}
+bool Simulation::callsForTension(double width) const { return scene_->tension_below > 0.0 && width <= scene_->tension_below; }
 
 bool Simulation::anyCallsForTension() const {
   return std::any_of(waiting_wounds_.begin(), waiting_wounds_.end(),
-                     [this](const dds::DecodedRequest& request) { return callsForTension(*woundCommand(request.action)); });
+                     [this](const WaitingWound& waiting) { return callsForTension(waiting.wound.width); });
 }
 
-void Simulation::holdWound(dds::DecodedRequest request) {
+/// Takes the request, to hold or to refuse it, if it is a wound's that cannot be carried out at once.
+bool Simulation::holdWound(dds::DecodedRequest& request) {
+  if (pending_load_ || faulted_) return false;  // to be refused
+  if (waiting_wounds_.empty() && scene_->tension_below <= 0.0) return false;
+  std::optional<WoundCommand> wound = woundCommand(request.action);
+  if (!wound || (waiting_wounds_.empty() && !callsForTension(wound->width))) return false;
   Status possible;
   if (waiting_wounds_.size() >= kMaxWaiting) {
     possible = {StatusCode::capacity, fmt::format("{} wound commands wait for surface tension already: wait for their replies",
                                                   waiting_wounds_.size())};
   } else if (waiting_wounds_.empty()) {
-    possible = world_->checkWound(*woundCommand(request.action));  // a wound that will not open switches nothing
+    possible = world_->checkWound(wound->command);  // a wound that will not open switches nothing
   }
   if (!possible) {
     answer(request, possible, 0);
-    return;
+    return true;
   }
-  waiting_wounds_.push_back(std::move(request));
+  waiting_wounds_.push_back({std::move(request), std::move(*wound)});
   if (!pending_switch_) decideForWounds();
+  return true;
 }
 
 void Simulation::decideForWounds() {
   scene::Session session{world_->speedOfSound(), narrowest_wound_};
-  for (const dds::DecodedRequest& request : waiting_wounds_) {
-    session.narrowest_wound = std::min(session.narrowest_wound, patchWidthOf(*woundCommand(request.action)));
+  for (const WaitingWound& waiting : waiting_wounds_) {
+    session.narrowest_wound = std::min(session.narrowest_wound, waiting.wound.width);
   }
   pending_switch_.emplace();
   loader_.start({{}, scene_, EffectJob{std::nullopt, session}});
@@ -56,12 +53,11 @@ void Simulation::decideForWounds() {
 
 /// `switched`: how the switch to surface tension went. Commands that can do without it act in any case.
 void Simulation::releaseWounds(const Status& switched) {
-  for (dds::DecodedRequest& request : std::exchange(waiting_wounds_, {})) {
-    const sph::Command command = *woundCommand(request.action);
-    if (!switched && callsForTension(command)) {
-      settle(request, Status{switched.code(), fmt::format("no surface tension for this wound: {}", switched.message())});
+  for (WaitingWound& waiting : std::exchange(waiting_wounds_, {})) {
+    if (!switched && callsForTension(waiting.wound.width)) {
+      settle(waiting.request, Status{switched.code(), fmt::format("no surface tension for this wound: {}", switched.message())});
     } else {
-      settle(request, applyToWorld(command));
+      settle(waiting.request, applyToWorld(waiting.wound.command));
     }
   }
 }

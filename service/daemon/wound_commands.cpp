@@ -1,23 +1,28 @@
 #include "service/daemon/wound_commands.h"
 
 #include <limits>
+#include <utility>
 
 #include "service/scene/feature_size.h"
 
 namespace bleedsim::daemon {
-
-std::optional<sph::Command> woundCommand(const dds::Action& action) {
-  if (const auto* add = std::get_if<sph::AddWound>(&action)) return *add;
-  if (const auto* update = std::get_if<sph::UpdateWound>(&action)) return *update;
-  if (const auto* remove = std::get_if<sph::RemoveWound>(&action)) return *remove;
-  return std::nullopt;
-}
 
 double patchWidthOf(const sph::Command& command) {
   if (const auto* add = std::get_if<sph::AddWound>(&command)) return scene::patchWidth(add->wound.shape);
   const auto* update = std::get_if<sph::UpdateWound>(&command);
   if (update != nullptr && update->shape) return scene::patchWidth(*update->shape);
   return std::numeric_limits<double>::infinity();
+}
+
+std::optional<WoundCommand> woundCommand(const dds::Action& action) {
+  const auto with_width = [](sph::Command command) {
+    const double width = patchWidthOf(command);
+    return WoundCommand{std::move(command), width};
+  };
+  if (const auto* add = std::get_if<sph::AddWound>(&action)) return with_width(*add);
+  if (const auto* update = std::get_if<sph::UpdateWound>(&action)) return with_width(*update);
+  if (const auto* remove = std::get_if<sph::RemoveWound>(&action)) return with_width(*remove);
+  return std::nullopt;
 }
 
 }  // namespace bleedsim::daemon

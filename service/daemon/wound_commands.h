@@ -8,10 +8,15 @@
 
 namespace bleedsim::daemon {
 
-/// Nothing for an action that is not a wound's.
-std::optional<sph::Command> woundCommand(const dds::Action& action);
-
 /// The narrowest place of the patch that a command brings, m; infinite without one.
 double patchWidthOf(const sph::Command& command);
+
+struct WoundCommand {
+  sph::Command command;
+  double width = 0.0;  ///< patchWidthOf()
+};
+
+/// Nothing for an action that is not a wound's.
+std::optional<WoundCommand> woundCommand(const dds::Action& action);
 
 }  // namespace bleedsim::daemon

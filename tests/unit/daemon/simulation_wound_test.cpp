@@ -27,6 +27,14 @@ class WoundTest : public SimulationTest {
     journal();
     channels_.board.takeScene();
   }
+  /// A real world.
+  void startWorld(const std::string& text) {
+    const SceneFactory factory = worldFactory({});
+    Result<LoadedScene> first = factory({text, {}});
+    ASSERT_TRUE(first.ok()) << first.status().message();
+    simulation_ = std::make_unique<Simulation>(SimulationOptions{{dds::PaceMode::maximum, 1.0}, {}, {}}, std::move(*first),
+                                               factory, channels_, now_);
+  }
   dds::Reply awaited() {
     dds::Reply out;
     for (int i = 0; i < 1'000'000; ++i) {
@@ -198,11 +206,7 @@ fluid_blocks { lower_m { x: -0.01 y: -0.01 } upper_m { x: 0.01 y: 0.01 z: 0.01 }
 // One step of 0.2 ms changes a speed of 0.2 m/s by gravity alone by 1 %, the energy by 2 %; an impulse of tension is more than 5
 // %.
 TEST_F(WoundTest, TheBloodThatRunsFeelsNoImpulse) {
-  const SceneFactory factory = worldFactory({});
-  Result<LoadedScene> first = factory({kBlockScene, {}});
-  ASSERT_TRUE(first.ok()) << first.status().message();
-  simulation_ = std::make_unique<Simulation>(SimulationOptions{{dds::PaceMode::maximum, 1.0}, {}, {}}, std::move(*first), factory,
-                                             channels_, now_);
+  startWorld(kBlockScene);
   ticks(200);
   const auto energy = [this] {
     sph::WorldStats stats;
@@ -233,11 +237,7 @@ TEST_F(WoundTest, TheBloodThatRunsFeelsNoImpulse) {
 TEST_F(WoundTest, AWoundThatCameDuringASwitchCounts) {
   std::string text = kBlockScene;
   text.replace(text.find("gravity {} "), 11, "");
-  const SceneFactory factory = worldFactory({});
-  Result<LoadedScene> first = factory({text, {}});
-  ASSERT_TRUE(first.ok()) << first.status().message();
-  simulation_ = std::make_unique<Simulation>(SimulationOptions{{dds::PaceMode::maximum, 1.0}, {}, {}}, std::move(*first), factory,
-                                             channels_, now_);
+  startWorld(text);
   const auto acts = [this](const char* name) { return sph::effectEnabled(simulation_->world().description(), name); };
   ASSERT_TRUE(acts("surface_tension"));
   sph::AddWound wound = disc(0.003);
