@@ -13,10 +13,10 @@ class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity) : slots_(capacity) {}
 
-  /// Moves from `value` only if there is room.
-  bool tryPush(T&& value) {
+  /// Moves from `value` only if there is room; `keep_free` slots are left to others.
+  bool tryPush(T&& value, std::size_t keep_free = 0) {
     const std::lock_guard lock{mutex_};
-    if (count_ == slots_.size()) return false;
+    if (count_ + keep_free >= slots_.size()) return false;
     slots_[(first_ + count_) % slots_.size()] = std::move(value);
     ++count_;
     return true;

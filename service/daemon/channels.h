@@ -19,6 +19,12 @@ struct Channels {
   /// More than the command queue holds, so that a full queue can be answered at once.
   static constexpr std::size_t kReplyCapacity = 2 * CommandQueue::kCapacity;
 
+  /// Wound commands that may wait for surface tension at once.
+  static constexpr std::size_t kMaxWaitingWounds = 64;
+  /// Of these, the intake leaves to the simulation: one for the request at hand, one for the load or the switch that may end at any
+  /// time, and those of the wounds that wait.
+  static constexpr std::size_t kRepliesOfSimulation = 2 + kMaxWaitingWounds;
+
   CommandQueue commands;                             ///< intake -> simulation
   BoundedQueue<dds::Reply> replies{kReplyCapacity};  ///< simulation, intake -> publisher
   ReplyCache reply_cache;                            ///< intake asks, publisher remembers

@@ -144,7 +144,7 @@ void Intake::refuse(dds::Reply reply, const Status& why) {
 void Intake::send(dds::Reply reply) {
   const dds::RequestKey key = reply.key;
   const bool first_time = reply.reply_stamp_ns == 0;
-  if (!channels_.replies.tryPush(std::move(reply))) {
+  if (!channels_.replies.tryPush(std::move(reply), Channels::kRepliesOfSimulation)) {
     channels_.counters.add(ServiceCounter::replies_lost);
     // Nothing was done yet, so the request may come again as if it were new.
     if (first_time) channels_.reply_cache.forget(key);

@@ -121,7 +121,7 @@ Simulation::Next Simulation::end() {
   for (const WaitingWound& waiting : std::exchange(waiting_wounds_, {})) answer(waiting.request, ending, 0);
   pending_load_.reset();
   pending_switch_.reset();
-  while (channels_.replies.room() > 0 && channels_.commands.tryPop(input_)) {
+  while (channels_.commands.tryPop(input_)) {
     if (const auto* request = std::get_if<dds::DecodedRequest>(&input_)) answer(*request, ending, 0);
   }
   return {Next::Kind::stop, {}};
@@ -136,7 +136,8 @@ Simulation::Next Simulation::tick(TimePoint now) {
   if (ended_ || stop_requested_.load(std::memory_order_relaxed)) return end();
 
   const dds::SessionState current = state();
-  const bool stepping = current == dds::SessionState::paused && steps_left_ > 0;
+  // Steps by hand keep their place behind a switch or a wound that was asked for before them.
+  const bool stepping = current == dds::SessionState::paused && steps_left_ > 0 && !pending_switch_;
   if (current == dds::SessionState::running || stepping) {
     const double ahead = stepping ? 0.0 : pacer_.secondsAhead(now, world_->time());
     if (ahead <= kWaitGrainSeconds) {

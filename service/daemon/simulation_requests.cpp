@@ -11,9 +11,6 @@
 namespace bleedsim::daemon {
 namespace {
 
-// One for the request at hand, one for the load or the switch that may end at any time.
-constexpr std::size_t kReplyReserve = 2;
-
 Status loadingNow() { return {StatusCode::wrong_state, "a scene is being loaded: wait for its reply"}; }
 Status faultedNow() { return {StatusCode::wrong_state, "the solver has stopped on bad numbers: reset or load a scene first"}; }
 
@@ -22,7 +19,7 @@ Status faultedNow() { return {StatusCode::wrong_state, "the solver has stopped o
 void Simulation::drainInputs(TimePoint now) {
   // At most one queue full, so that a flood of input cannot keep the world from stepping.
   for (std::size_t i = 0; i < CommandQueue::kCapacity; ++i) {
-    if (ended_ || channels_.replies.room() < kReplyReserve + waiting_wounds_.size() || !channels_.commands.tryPop(input_)) return;
+    if (ended_ || channels_.replies.room() < Channels::kRepliesOfSimulation || !channels_.commands.tryPop(input_)) return;
     std::visit(dds::Overloaded{[&](dds::DecodedRequest& request) { carryOut(request, now); },
                                [&](InstrumentInput& sample) { takeSample(sample); },
                                [&](const WriterLost& lost) { endInstrumentsOf(lost.writer); }},
@@ -184,7 +181,10 @@ void Simulation::answer(const dds::DecodedRequest& request, const Status& status
 
 void Simulation::send(dds::Reply reply) {
   if (reply.code != dds::ReplyCode::accepted) channels_.counters.add(ServiceCounter::requests_refused);
-  if (!channels_.replies.tryPush(std::move(reply))) channels_.counters.add(ServiceCounter::replies_lost);
+  if (!channels_.replies.tryPush(std::move(reply))) {
+    channels_.counters.add(ServiceCounter::replies_lost);
+    channels_.reply_cache.finish(reply);  // for the client that sends its request again
+  }
   channels_.publisher.notify();
 }
 

@@ -7,11 +7,6 @@
 #include "service/daemon/simulation.h"
 
 namespace bleedsim::daemon {
-namespace {
-
-constexpr std::size_t kMaxWaiting = 64;
-
-}  // namespace
 
 bool Simulation::callsForTension(double width) const { return scene_->tension_below > 0.0 && width <= scene_->tension_below; }
 
@@ -27,7 +22,7 @@ bool Simulation::holdWound(dds::DecodedRequest& request) {
   std::optional<WoundCommand> wound = woundCommand(request.action);
   if (!wound || (waiting_wounds_.empty() && !callsForTension(wound->width))) return false;
   Status possible;
-  if (waiting_wounds_.size() >= kMaxWaiting) {
+  if (waiting_wounds_.size() >= Channels::kMaxWaitingWounds) {
     possible = {StatusCode::capacity, fmt::format("{} wound commands wait for surface tension already: wait for their replies",
                                                   waiting_wounds_.size())};
   } else if (waiting_wounds_.empty()) {

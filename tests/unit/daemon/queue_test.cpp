@@ -26,6 +26,17 @@ TEST(BoundedQueue, RefusesWhenFullAndLeavesTheValue) {
   EXPECT_TRUE(queue.empty());
 }
 
+TEST(BoundedQueue, LeavesSlotsToOthers) {
+  BoundedQueue<int> queue{3};
+  EXPECT_TRUE(queue.tryPush(1, 2));
+  EXPECT_FALSE(queue.tryPush(2, 2));
+  EXPECT_EQ(queue.room(), 2U);
+  EXPECT_TRUE(queue.tryPush(2));
+  EXPECT_TRUE(queue.tryPush(3));
+  EXPECT_FALSE(queue.tryPush(4));
+  EXPECT_FALSE(queue.tryPush(4, 4));
+}
+
 TEST(BoundedQueue, KeepsTheOrderBetweenThreads) {
   constexpr int kCount = 50'000;
   BoundedQueue<int> queue{64};

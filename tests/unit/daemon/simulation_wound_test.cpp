@@ -127,6 +127,37 @@ TEST_F(WoundTest, CommandsOfWoundsKeepTheirOrderWhileOneWaits) {
   EXPECT_EQ(log_->adoptions, 1);
 }
 
+TEST_F(WoundTest, StepsByHandComeAfterTheWoundThatWasAskedForBeforeThem) {
+  startScene("no tension");
+  ask(dds::PauseSession{});
+  const std::uint64_t before = simulation_->world().stepCount();
+  push(disc(0.0005));
+  push(dds::StepSession{3});
+  tick();
+  EXPECT_EQ(reply().key.seq, 3U);
+  EXPECT_EQ(simulation_->world().stepCount(), before);
+  const dds::Reply opened = awaited();
+  EXPECT_EQ(opened.applied_step, before + 1);
+  ticks(4);
+  EXPECT_EQ(simulation_->world().stepCount(), before + 3);
+}
+
+TEST_F(WoundTest, KeepsRoomForTheRepliesOfWhatWaits) {
+  startScene("no tension");
+  for (int i = 0; i < 64; ++i) push(disc(0.0005));
+  tick();
+  dds::Reply other;
+  while (channels_.replies.tryPush(dds::Reply{other}, Channels::kRepliesOfSimulation)) {
+  }
+  push(dds::Ping{});
+  for (int i = 0; i < 1'000'000 && simulation_->world().wounds().size() < 64; ++i) {
+    tick();
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::replies_lost), 0U);
+  EXPECT_EQ(simulation_->world().wounds().size(), 64U);
+}
+
 TEST_F(WoundTest, WaitsForAnEffectThatIsBeingSwitched) {
   startScene("no tension");
   push(dds::SetEffect{"repulsion", true, ""});
