@@ -70,7 +70,21 @@ JsonObject statusJson(const client::SessionStatus& status) {
   json.add("version", status.version).add("host", status.host).add("pid", status.pid).add("heartbeat", status.heartbeat);
   JsonObject counters;
   for (const auto& [name, value] : status.counters) counters.add(name, value);
-  return json.raw("counters", counters.text());
+  json.raw("counters", counters.text());
+  JsonArray clients;
+  for (const client::ClientActivity& client : status.clients) {
+    JsonObject entry;
+    entry.add("client", client::toString(client.client)).add("requests", client.requests).add("refused", client.refused);
+    entry.add("busy", client.busy).add("resent", client.resent).add("instrument_samples", client.instrument_samples);
+    entry.add("instruments_rejected", client.instruments_rejected).add("silent_s", client.silent_s);
+    clients.raw(entry.text());
+  }
+  json.raw("clients", clients.text());
+  if (status.lease_client) {
+    JsonObject lease;
+    json.raw("lease", lease.add("client", client::toString(*status.lease_client)).add("left_s", status.lease_left_s).text());
+  }
+  return json;
 }
 
 int runList(const Context& context) {
@@ -108,6 +122,16 @@ void printStatus(const client::SessionStatus& status, const Result<client::Scene
   }
   for (const auto& [name, value] : status.counters) {
     if (value != 0) fmt::print("{:<17} {}\n", name, value);
+  }
+  if (status.lease_client) {
+    fmt::print("lease             of client {} for up to {:.1f} s more: nobody else may command\n",
+               client::toString(*status.lease_client), status.lease_left_s);
+  }
+  for (const client::ClientActivity& client : status.clients) {
+    fmt::print(
+        "client {}: {} requests ({} refused, {} busy, {} resent), {} instrument samples ({} rejected), silent for {:.1f} s\n",
+        client::toString(client.client), client.requests, client.refused, client.busy, client.resent, client.instrument_samples,
+        client.instruments_rejected, client.silent_s);
   }
 }
 

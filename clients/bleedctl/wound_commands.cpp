@@ -1,7 +1,9 @@
 // wound add, move, set and remove; force.
+#include <charconv>
 #include <cmath>
 #include <fmt/core.h>
 #include <memory>
+#include <optional>
 
 #include "clients/bleedctl/context.h"
 #include "service/status/quantity_limits.h"
@@ -23,7 +25,7 @@ struct Values {
   double flow_ml_per_s = 0.0;
   double pressure_mmhg = 0.0;
   double duration_s = 0.1;
-  std::uint32_t id = 0;
+  std::string wound;
 };
 
 std::string checkPosition(const std::string& text) {
@@ -43,6 +45,28 @@ std::string checkNewtons(const std::string& text) {
   const double length = std::hypot((*newtons)[0], (*newtons)[1], (*newtons)[2]);
   if (length <= kForce.upper) return {};
   return fmt::format("'{}' is a force of {:g} N: use at most {:g} N", text, length, kForce.upper);
+}
+
+std::optional<std::uint32_t> parseId(const std::string& text) {
+  std::uint32_t id = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return whole ? std::optional{id} : std::nullopt;
+}
+
+/// An id of digits alone, or else a name.
+CLI::Option* addWoundOption(CLI::App& command, Values& values) {
+  return command.add_option("ID", values.wound, "ID or name of the wound")
+      ->required()
+      ->check([](const std::string& text) { return text.empty() ? "an empty ID: give the ID or the name of a wound" : ""; })
+      ->type_name("");
+}
+
+/// Calls act(id) or act(name).
+template <class Act>
+auto onWound(const std::string& wound, Act&& act) {
+  const std::optional<std::uint32_t> id = parseId(wound);
+  return id ? act(*id) : act(wound);
 }
 
 client::Vec3 vec3(const std::string& checked) { return parseVec3(checked).value(); }
@@ -85,21 +109,22 @@ void addAdd(CLI::App& wound, Context& context) {
 void addMove(CLI::App& wound, Context& context) {
   CLI::App* move = wound.add_subcommand("move", "Move a wound");
   const auto v = std::make_shared<Values>();
-  move->add_option("ID", v->id, "ID of the wound")->required()->type_name("");
+  addWoundOption(*move, *v);
   move->add_option("--at", v->at, "New centre in m")->required()->check(checkPosition)->type_name("X,Y,Z");
   move->add_option("--normal", v->normal, "New outward direction")->check(checkVec3)->type_name("X,Y,Z");
   move->callback([&context, v] {
     client::WoundChange change{.position = vec3(v->at)};
     if (!v->normal.empty()) change.normal = vec3(v->normal);
-    context.action =
-        command(context, "wound moved", [id = v->id, change](client::Session& s) { return s.updateWound(id, change); });
+    context.action = command(context, "wound moved", [wound = v->wound, change](client::Session& s) {
+      return onWound(wound, [&](const auto& which) { return s.updateWound(which, change); });
+    });
   });
 }
 
 void addSet(CLI::App& wound, Context& context) {
   CLI::App* set = wound.add_subcommand("set", "Change a wound's flow, pressure, radius, direction or name");
   const auto v = std::make_shared<Values>();
-  set->add_option("ID", v->id, "ID of the wound")->required()->type_name("");
+  addWoundOption(*set, *v);
   CLI::Option* flow = set->add_option("--flow-ml-per-s", v->flow_ml_per_s, "Flow in mL/s")->check(inRange(kFlow))->type_name("Q");
   CLI::Option* pressure = set->add_option("--pressure-mmhg", v->pressure_mmhg, "Inlet pressure in mmHg")
                               ->check(inRange(kInletPressure))
@@ -122,17 +147,20 @@ void addSet(CLI::App& wound, Context& context) {
     if (flow->count() + pressure->count() + radius->count() + at->count() + normal->count() + name->count() == 0) {
       throw CLI::RequiredError("one of --flow-ml-per-s, --pressure-mmhg, --radius-mm, --at, --normal, --name");
     }
-    context.action =
-        command(context, "wound changed", [id = v->id, change](client::Session& s) { return s.updateWound(id, change); });
+    context.action = command(context, "wound changed", [wound = v->wound, change](client::Session& s) {
+      return onWound(wound, [&](const auto& which) { return s.updateWound(which, change); });
+    });
   });
 }
 
 void addRemove(CLI::App& wound, Context& context) {
   CLI::App* remove = wound.add_subcommand("remove", "Close a wound; its blood stays");
   const auto v = std::make_shared<Values>();
-  remove->add_option("ID", v->id, "ID of the wound")->required()->type_name("");
+  addWoundOption(*remove, *v);
   remove->callback([&context, v] {
-    context.action = command(context, "wound removed", [id = v->id](client::Session& s) { return s.removeWound(id); });
+    context.action = command(context, "wound removed", [wound = v->wound](client::Session& s) {
+      return onWound(wound, [&](const auto& which) { return s.removeWound(which); });
+    });
   });
 }
 

@@ -35,6 +35,8 @@ const char* toString(SessionState state) {
   return "unknown";
 }
 
+std::string toString(const Uuid& uuid) { return transport::toString(uuid); }
+
 const char* toString(ReplyCode code) {
   switch (code) {
     case ReplyCode::accepted:
@@ -57,6 +59,8 @@ const char* toString(ReplyCode code) {
       return "stale";
     case ReplyCode::failed:
       return "failed";
+    case ReplyCode::leased:
+      return "leased";
     case ReplyCode::no_answer:
       return "no answer";
     case ReplyCode::not_sent:
@@ -89,6 +93,12 @@ SessionStatus fromWire(const bleed_v1_Status& wire) {
   out.realtime_stamp_ns = wire.realtime_stamp_ns;
   out.start_stamp_ns = wire.start_stamp_ns;
   out.behind_s = wire.behind_s;
+  for (const bleed_v1_ClientActivity& c : elements(wire.clients)) {
+    out.clients.push_back({transport::toUuid(c.client), c.requests, c.refused, c.busy, c.resent, c.instrument_samples,
+                           c.instruments_rejected, c.silent_s});
+  }
+  if (const Uuid holder = transport::toUuid(wire.lease_client); holder != Uuid{}) out.lease_client = holder;
+  out.lease_left_s = wire.lease_left_s;
   return out;
 }
 
@@ -157,7 +167,7 @@ FrameStats fromWire(const bleed_v1_FrameStats& wire) {
 
 Reply fromWire(const bleed_v1_Reply& wire) {
   Reply out;
-  out.code = wire.code <= bleed_v1_REPLY_FAILED ? static_cast<ReplyCode>(wire.code) : ReplyCode::failed;
+  out.code = wire.code <= bleed_v1_REPLY_LEASED ? static_cast<ReplyCode>(wire.code) : ReplyCode::failed;
   out.reason = textOf(wire.reason);
   out.applied_step = wire.applied_step;
   out.sim_time_s = wire.sim_time_s;

@@ -23,12 +23,21 @@ RequestPointer make(std::uint32_t request) {
   return out;
 }
 
-Status setName(const std::string& name, bleed_v1_Wound& into) {
+template <std::size_t N>
+Status setName(const std::string& name, char (&into)[N]) {
   if (const Status printable = checkPrintable(name); !printable) {
     return {StatusCode::invalid_argument, fmt::format("the name of a wound: {}", printable.message())};
   }
-  if (copyText(name, into.name)) return {};
-  return {StatusCode::invalid_argument, fmt::format("the name of a wound has {} bytes: at most 64 are possible", name.size())};
+  if (copyText(name, into)) return {};
+  return {StatusCode::invalid_argument,
+          fmt::format("the name of a wound has {} bytes: at most {} are possible", name.size(), N - 1)};
+}
+
+/// Which wound is meant.
+template <std::size_t N>
+Status nameWound(const std::string& name, char (&into)[N]) {
+  if (name.empty()) return {StatusCode::invalid_argument, "the name of the wound is empty: give the name it was opened with"};
+  return setName(name, into);
 }
 
 }  // namespace
@@ -40,7 +49,7 @@ Result<RequestPointer> buildAddWound(const WoundSpec& wound) {
   }
   RequestPointer out = make(bleed_v1_REQUEST_WOUND_ADD);
   bleed_v1_Wound& wire = out->wire.body._u.wound_add;
-  if (Status name = setName(wound.name, wire); !name) return name;
+  if (Status name = setName(wound.name, wire.name); !name) return name;
   wire.position = wireVec3(wound.position);
   wire.normal = wireVec3(wound.normal);
   wire.tangent = wireVec3(wound.tangent);
@@ -86,7 +95,7 @@ Result<RequestPointer> buildUpdateWound(std::uint32_t wound_id, const WoundChang
   }
   if (change.name) {
     update.fields |= bleed_v1_WOUND_FIELD_NAME;
-    if (Status name = setName(*change.name, update.wound); !name) return name;
+    if (Status name = setName(*change.name, update.wound.name); !name) return name;
   }
   if (update.fields == 0) {
     return Status{StatusCode::invalid_argument,
@@ -98,6 +107,25 @@ Result<RequestPointer> buildUpdateWound(std::uint32_t wound_id, const WoundChang
 RequestPointer buildRemoveWound(std::uint32_t wound_id) {
   RequestPointer out = make(bleed_v1_REQUEST_WOUND_REMOVE);
   out->wire.body._u.wound_remove.wound_id = wound_id;
+  return out;
+}
+
+Result<RequestPointer> buildUpdateWound(const std::string& name, const WoundChange& change) {
+  Result<RequestPointer> out = buildUpdateWound(0, change);
+  if (!out) return out;
+  if (Status named = nameWound(name, (*out)->wire.body._u.wound_update.wound_name); !named) return named;
+  return out;
+}
+
+Result<RequestPointer> buildRemoveWound(const std::string& name) {
+  RequestPointer out = buildRemoveWound(0);
+  if (Status named = nameWound(name, out->wire.body._u.wound_remove.wound_name); !named) return named;
+  return out;
+}
+
+RequestPointer buildAcquire(double seconds) {
+  RequestPointer out = make(bleed_v1_REQUEST_ACQUIRE);
+  out->wire.body._u.acquire.seconds = seconds;
   return out;
 }
 

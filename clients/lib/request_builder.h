@@ -9,6 +9,9 @@ namespace bleedsim::client {
 Result<RequestPointer> buildAddWound(const WoundSpec& wound);
 Result<RequestPointer> buildUpdateWound(std::uint32_t wound_id, const WoundChange& change);
 RequestPointer buildRemoveWound(std::uint32_t wound_id);
+/// By the name it was opened with.
+Result<RequestPointer> buildUpdateWound(const std::string& name, const WoundChange& change);
+Result<RequestPointer> buildRemoveWound(const std::string& name);
 RequestPointer buildForce(const ForceSpec& force);
 RequestPointer buildStep(std::uint32_t count);
 RequestPointer buildPace(const Pace& pace);
@@ -16,7 +19,8 @@ Result<RequestPointer> buildOutput(const OutputSpec& output);
 Result<RequestPointer> buildLoadScene(const std::string& text);
 Result<RequestPointer> buildEffect(const std::string& name, bool enabled, const std::string& settings);
 RequestPointer buildPing(std::int64_t stamp_ns);
-/// REQUEST_PAUSE, _RESUME, _RESET or _SHUTDOWN.
+RequestPointer buildAcquire(double seconds);
+/// REQUEST_PAUSE, _RESUME, _RESET, _SHUTDOWN or _RELEASE.
 RequestPointer buildPlain(std::uint32_t request);
 
 }  // namespace bleedsim::client

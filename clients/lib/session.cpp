@@ -70,6 +70,16 @@ bool Session::alive() const {
   return impl_->alive;
 }
 
+ConnectionState Session::connection() const {
+  const std::lock_guard lock{impl_->mutex};
+  return impl_->connection;
+}
+
+bool Session::waitAlive(std::chrono::nanoseconds timeout) {
+  std::unique_lock lock{impl_->mutex};
+  return impl_->changed.wait_for(lock, timeout, [&] { return impl_->alive; });
+}
+
 bool Session::waitGone(std::chrono::nanoseconds timeout) {
   std::unique_lock lock{impl_->mutex};
   return impl_->changed.wait_for(lock, timeout, [&] { return !impl_->alive; });
@@ -83,6 +93,10 @@ std::future<Reply> Session::moveWound(std::uint32_t wound_id, const Vec3& positi
   return impl_->submit(buildUpdateWound(wound_id, {.position = position, .normal = normal}));
 }
 std::future<Reply> Session::removeWound(std::uint32_t wound_id) { return impl_->submit(buildRemoveWound(wound_id)); }
+std::future<Reply> Session::updateWound(const std::string& name, const WoundChange& change) {
+  return impl_->submit(buildUpdateWound(name, change));
+}
+std::future<Reply> Session::removeWound(const std::string& name) { return impl_->submit(buildRemoveWound(name)); }
 std::future<Reply> Session::force(const ForceSpec& force) { return impl_->submit(buildForce(force)); }
 std::future<Reply> Session::pause() { return impl_->submit(buildPlain(bleed_v1_REQUEST_PAUSE)); }
 std::future<Reply> Session::resume() { return impl_->submit(buildPlain(bleed_v1_REQUEST_RESUME)); }
@@ -94,6 +108,11 @@ std::future<Reply> Session::loadScene(const std::string& text) { return impl_->s
 std::future<Reply> Session::setEffect(const std::string& name, bool enabled, const std::string& settings) {
   return impl_->submit(buildEffect(name, enabled, settings));
 }
+std::future<Reply> Session::acquireLease(std::chrono::milliseconds length) {
+  return impl_->submit(buildAcquire(std::chrono::duration<double>{length}.count()));
+}
+std::future<Reply> Session::releaseLease() { return impl_->submit(buildPlain(bleed_v1_REQUEST_RELEASE)); }
+const Uuid& Session::clientId() const { return impl_->client; }
 std::future<Reply> Session::shutdown() { return impl_->submit(buildPlain(bleed_v1_REQUEST_SHUTDOWN)); }
 
 Result<std::chrono::nanoseconds> Session::ping(std::chrono::nanoseconds timeout) {

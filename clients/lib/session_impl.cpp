@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <limits>
+#include <utility>
 
 #include "clients/lib/convert.h"
 #include "clients/lib/frame_decoder.h"
+#include "clients/lib/request_builder.h"
 #include "service/transport/clock.h"
 #include "service/transport/uuid.h"
 
@@ -167,6 +169,7 @@ void Session::Impl::serve() {
     takeStats();
     if (endpoints_->frame) takeFrames();
     watchPeers();
+    tellConnection();
   }
 }
 
@@ -179,6 +182,7 @@ void Session::Impl::takeReplies() {
     if (reply.client_stamp_ns > 0) {
       // Before the future is answered, so that ping() finds its own sample in the estimate.
       const std::lock_guard state{mutex};
+      had_offset = true;
       clock.add(reply.client_stamp_ns, reply.receive_stamp_ns, reply.reply_stamp_ns, reply.arrival_stamp_ns);
     }
     const std::lock_guard lock{request_mutex_};
@@ -192,6 +196,10 @@ void Session::Impl::takeState() {
     SessionStatus value = fromWire(wire);
     const std::lock_guard lock{mutex};
     alive = value.state != SessionState::stopped;
+    if (status && status->session != value.session) {
+      replaced_ = true;
+      clock = {};
+    }
     status = std::move(value);
     news = true;
   });
@@ -250,6 +258,24 @@ void Session::Impl::watchPeers() {
   matched = matched || connected;
   alive = now_alive;
   changed.notify_all();
+}
+
+void Session::Impl::tellConnection() {
+  ConnectionState now;
+  bool ping = false;
+  {
+    const std::lock_guard lock{mutex};
+    if (alive == connection.connected && !replaced_) return;
+    if (connection.connected && !alive) ++connection.losses;
+    if (std::exchange(replaced_, false)) ++connection.replacements;
+    connection.connected = alive;
+    now = connection;
+    ping = alive && had_offset;
+  }
+  changed.notify_all();
+  // The path may be another one, and the daemon's clock another host's.
+  if (ping) submit(buildPing(transport::monotonicNow()));
+  if (options.on_connection) options.on_connection(now);
 }
 
 }  // namespace bleedsim::client

@@ -46,8 +46,10 @@ class Session::Impl {
   std::optional<SessionStatus> status;
   std::optional<SceneInfo> scene;
   bool alive = true;
+  ConnectionState connection;  // as it was told last
   bool matched = false;
   ClockEstimator clock;
+  bool had_offset = false;  // somebody wants the clock offset
 
  private:
   struct Endpoints;
@@ -60,10 +62,12 @@ class Session::Impl {
   void takeFrames();
   void takeStats();
   void watchPeers();
+  void tellConnection();
   /// Sends what is due and ends what is late; needs request_mutex_.
   void sendDue();
 
   std::unique_ptr<Endpoints> endpoints_;
+  bool replaced_ = false;     // since tellConnection(); of the thread
   std::mutex request_mutex_;  // covers tracker_ and the request writer
   RequestTracker tracker_;
   std::atomic<bool> stopping_ = false;

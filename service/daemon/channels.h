@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "service/daemon/bounded_queue.h"
+#include "service/daemon/client_ledger.h"
 #include "service/daemon/command_queue.h"
 #include "service/daemon/frame_mailbox.h"
 #include "service/daemon/journal.h"
@@ -21,8 +22,8 @@ struct Channels {
 
   /// Wound commands that may wait for surface tension at once.
   static constexpr std::size_t kMaxWaitingWounds = 64;
-  /// Of these, the intake leaves to the simulation: one for the request at hand, one for the load or the switch that may end at any
-  /// time, and those of the wounds that wait.
+  /// Of these, the intake leaves to the simulation: one for the request at hand, one for the load or the switch that may end at
+  /// any time, and those of the wounds that wait.
   static constexpr std::size_t kRepliesOfSimulation = 2 + kMaxWaitingWounds;
 
   CommandQueue commands;                             ///< intake -> simulation
@@ -32,7 +33,8 @@ struct Channels {
   FrameMailbox frames;                               ///< simulation -> publisher
   StatusBoard board;                                 ///< simulation -> publisher, intake
   ServiceCounters counters;
-  Wakeup publisher;  ///< the publisher waits here
+  ClientLedger clients;  ///< intake, simulation -> publisher
+  Wakeup publisher;      ///< the publisher waits here
 };
 
 }  // namespace bleedsim::daemon

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <variant>
 
-#include "service/daemon/bounded_queue.h"
+#include "service/daemon/fair_queue.h"
 #include "service/daemon/wakeup.h"
 #include "service/dds/request.h"
 
@@ -15,13 +15,14 @@ struct InstrumentInput {
   dds::InstrumentSample sample;
   TimePoint received;  ///< its expiry counts from here
 };
-/// A writer of instrument samples is gone.
+/// A writer of instrument samples or of requests is gone.
 struct WriterLost {
   std::uint64_t writer = 0;
 };
 using Input = std::variant<dds::DecodedRequest, InstrumentInput, WriterLost>;
 
-/// Bounded: a full queue refuses, and whoever pushed answers "busy" or counts the loss.
+/// Bounded and fair between the writers on the wire: what a writer has no room for is refused, and whoever pushed it answers
+/// "busy" or counts the loss.
 class CommandQueue {
  public:
   static constexpr std::size_t kCapacity = 1024;
@@ -30,7 +31,8 @@ class CommandQueue {
 
   /// Wakes the simulation thread. Moves from `input` only if there is room.
   bool tryPush(Input&& input) {
-    const bool pushed = queue_.tryPush(std::move(input));
+    const std::uint64_t writer = writerOf(input);
+    const bool pushed = queue_.tryPush(writer, std::move(input));
     wakeup_.notify();
     return pushed;
   }
@@ -41,7 +43,13 @@ class CommandQueue {
   Wakeup& wakeup() { return wakeup_; }
 
  private:
-  BoundedQueue<Input> queue_;
+  static std::uint64_t writerOf(const Input& input) {
+    if (const auto* request = std::get_if<dds::DecodedRequest>(&input)) return request->writer;
+    if (const auto* sample = std::get_if<InstrumentInput>(&input)) return sample->sample.writer;
+    return std::get<WriterLost>(input).writer;
+  }
+
+  FairQueue<Input> queue_;
   Wakeup wakeup_;
 };
 

@@ -10,7 +10,7 @@
 namespace bleedsim::daemon {
 namespace {
 
-enum Token : unsigned { kRequests, kInstruments, kInstrumentWriters, kStop };
+enum Token : unsigned { kRequests, kInstruments, kWriters, kStop };
 
 }  // namespace
 
@@ -26,7 +26,8 @@ Result<std::unique_ptr<Intake>> Intake::create(const transport::Participant& par
   if (!wait_set) return wait_set.status();
   if (Status attached = wait_set->attach(*requests, kRequests); !attached) return attached;
   if (Status attached = wait_set->attach(*instruments, kInstruments); !attached) return attached;
-  if (Status attached = wait_set->attachMatches(*instruments, kInstrumentWriters); !attached) return attached;
+  if (Status attached = wait_set->attachMatches(*requests, kWriters); !attached) return attached;
+  if (Status attached = wait_set->attachMatches(*instruments, kWriters); !attached) return attached;
   if (Status attached = wait_set->attach(*stop, kStop); !attached) return attached;
   Ends ends{std::move(*requests), std::move(*instruments), std::move(*stop), std::move(*wait_set)};
   return std::unique_ptr<Intake>{new Intake{std::move(ends), channels}};
@@ -40,13 +41,13 @@ Status Intake::run() {
     if (!woken) return woken.status();
     if (woken->has(kStop)) return {};
     if (Status drained = drain(); !drained) return drained;
-    if (woken->has(kInstrumentWriters)) noticeLostWriters();
+    if (woken->has(kWriters)) noticeLostWriters();
   }
 }
 
 Status Intake::drain() {
   const Result<std::size_t> requests = ends_.requests.take([this](const transport::Sample<bleed_v1_Request>& sample) {
-    if (sample.data != nullptr) takeRequest(*sample.data);
+    if (sample.data != nullptr) takeRequest(*sample.data, sample.publication);
   });
   if (!requests) return requests.status();
   const Result<std::size_t> instruments = ends_.instruments.take([this](const transport::Sample<bleed_v1_Instrument>& sample) {
@@ -57,27 +58,30 @@ Status Intake::drain() {
 
 void Intake::noticeLostWriters() {
   std::vector<transport::PublicationHandle> alive = ends_.instruments.matchedPublications();
+  const std::vector<transport::PublicationHandle> requesting = ends_.requests.matchedPublications();
+  alive.insert(alive.end(), requesting.begin(), requesting.end());
   for (const transport::PublicationHandle writer : writers_) {
     if (std::find(alive.begin(), alive.end(), writer) != alive.end()) continue;
-    // Without room the tools of that writer end by their expiry.
+    // Without room its tools and its lease end by their expiry.
     static_cast<void>(channels_.commands.tryPush(WriterLost{writer}));
   }
   writers_ = std::move(alive);
 }
 
-void Intake::takeRequest(const bleed_v1_Request& sample) {
+void Intake::takeRequest(const bleed_v1_Request& sample, transport::PublicationHandle writer) {
   const std::int64_t received = transport::monotonicNow();
   channels_.counters.add(ServiceCounter::requests);
   const dds::RequestKey key = dds::requestKey(sample);
+  channels_.clients.heard(key.origin.client, dds::ClientCount::requests, received);
   ReplyCache::Answer known = channels_.reply_cache.begin(key);
   switch (known.known) {
     case ReplyCache::Known::fresh:
       break;
     case ReplyCache::Known::in_work:
-      channels_.counters.add(ServiceCounter::requests_resent);
+      noteResent(key);
       return;
     case ReplyCache::Known::answered:
-      channels_.counters.add(ServiceCounter::requests_resent);
+      noteResent(key);
       send(std::move(*known.reply));
       return;
     case ReplyCache::Known::stale: {
@@ -94,6 +98,11 @@ void Intake::takeRequest(const bleed_v1_Request& sample) {
     refuse(replyTo(key, received), action.status());
     return;
   }
+  Result<std::string> wound_name = dds::decodeWoundName(sample.body);
+  if (!wound_name) {
+    refuse(replyTo(key, received), wound_name.status());
+    return;
+  }
   // A ping changes nothing, so it does not wait for a step.
   if (const auto* ping = std::get_if<dds::Ping>(&*action)) {
     dds::Reply reply = replyTo(key, received);
@@ -101,25 +110,33 @@ void Intake::takeRequest(const bleed_v1_Request& sample) {
     send(std::move(reply));
     return;
   }
-  dds::DecodedRequest request{key, std::move(*action), received, std::make_unique<dds::RequestCopy>(sample)};
+  dds::DecodedRequest request{key,    std::move(*action), std::move(*wound_name),
+                              writer, received,           std::make_unique<dds::RequestCopy>(sample)};
   if (channels_.commands.tryPush(std::move(request))) return;
   channels_.counters.add(ServiceCounter::requests_busy);
+  channels_.clients.note(key.origin.client, dds::ClientCount::busy);
   dds::Reply reply = replyTo(key, received);
   reply.code = dds::ReplyCode::busy;
-  reply.reason = "too many requests are waiting: send it again";
+  reply.reason = "too many requests of yours are waiting: send it again";
   send(std::move(reply));
 }
 
 void Intake::takeInstrument(const bleed_v1_Instrument& sample, transport::PublicationHandle writer) {
   channels_.counters.add(ServiceCounter::instrument_samples);
+  const dds::Uuid client = transport::toUuid(sample.client);
+  channels_.clients.heard(client, dds::ClientCount::instrument_samples, transport::monotonicNow());
+  const auto reject = [&](ServiceCounter why) {
+    channels_.counters.add(why);
+    channels_.clients.note(client, dds::ClientCount::instruments_rejected);
+  };
   Result<dds::InstrumentSample> decoded = dds::decodeInstrument(sample);
   if (!decoded) {
-    channels_.counters.add(ServiceCounter::instruments_malformed);
+    reject(ServiceCounter::instruments_malformed);
     return;
   }
   decoded->writer = writer;
   if (!channels_.commands.tryPush(InstrumentInput{std::move(*decoded), Clock::now()})) {
-    channels_.counters.add(ServiceCounter::instruments_dropped);
+    reject(ServiceCounter::instruments_dropped);
   }
 }
 
@@ -134,8 +151,14 @@ dds::Reply Intake::replyTo(const dds::RequestKey& key, std::int64_t received) co
   return reply;
 }
 
+void Intake::noteResent(const dds::RequestKey& key) {
+  channels_.counters.add(ServiceCounter::requests_resent);
+  channels_.clients.note(key.origin.client, dds::ClientCount::resent);
+}
+
 void Intake::refuse(dds::Reply reply, const Status& why) {
   channels_.counters.add(ServiceCounter::requests_refused);
+  channels_.clients.note(reply.key.origin.client, dds::ClientCount::refused);
   reply.code = dds::replyCode(why.code());
   reply.reason = why.message();
   send(std::move(reply));

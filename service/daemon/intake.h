@@ -22,7 +22,7 @@ class Intake {
   void requestStop();
 
   /// One sample each; run() calls them, tests may do so without any middleware thread.
-  void takeRequest(const bleed_v1_Request& sample);
+  void takeRequest(const bleed_v1_Request& sample, transport::PublicationHandle writer);
   void takeInstrument(const bleed_v1_Instrument& sample, transport::PublicationHandle writer);
 
  private:
@@ -38,6 +38,7 @@ class Intake {
   Status drain();
   void noticeLostWriters();
   dds::Reply replyTo(const dds::RequestKey& key, std::int64_t received) const;
+  void noteResent(const dds::RequestKey& key);
   void refuse(dds::Reply reply, const Status& why);
   void send(dds::Reply reply);
 

@@ -131,7 +131,9 @@ void Publisher::publishStatus() {
 
 void Publisher::writeStatus(const dds::StatusReport& report) {
   const ServiceCounters::All counts = channels_.counters.all();
-  count(writers_.status.write(status_encoder_.encode(report, counts)));
+  std::array<dds::ClientActivity, dds::kMaxClients> clients;
+  const std::size_t known = channels_.clients.read(clients);
+  count(writers_.status.write(status_encoder_.encode(report, counts, std::span{clients}.first(known))));
 }
 
 void Publisher::finish() {

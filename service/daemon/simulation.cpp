@@ -74,6 +74,8 @@ void Simulation::install(LoadedScene loaded, TimePoint now) {
   stage_seconds_at_frame_ = {};
   narrowest_wound_ = std::numeric_limits<double>::infinity();
   instruments_.clear();
+  wound_names_.clear();
+  for (std::uint32_t i = 0; i < scene_->world.wounds.size(); ++i) wound_names_.set(i + 1, scene_->world.wounds[i].name);
   pacer_.restart(now);
   frame_clock_.restart();
   channels_.journal.beginEpoch(epoch_);
@@ -108,6 +110,8 @@ void Simulation::showState() {
     report.particles = world_->particleCount();
     report.wounds = static_cast<std::uint32_t>(world_->wounds().size());
     report.text = fault_text_.empty() ? fmt::format("{}", fmt::join(notes(), "; ")) : fault_text_;
+    report.lease_client = lease_.holder();
+    report.lease_until_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(lease_.until().time_since_epoch()).count();
     report.full_frame_bytes = scene_->world.capacity * dds::frameBytesPerParticle(attributes_);
   });
   channels_.publisher.notify();
@@ -130,7 +134,7 @@ Simulation::Next Simulation::end() {
 Simulation::Next Simulation::tick(TimePoint now) {
   finishLoading(now);
   finishSwitching();
-  drainInputs(now);
+  const bool more = drainInputs(now);
   applyInstruments();
   endSilentInstruments(now);
   if (ended_ || stop_requested_.load(std::memory_order_relaxed)) return end();
@@ -144,9 +148,11 @@ Simulation::Next Simulation::tick(TimePoint now) {
       advance(now);
       return ended_ ? end() : Next{Next::Kind::again, {}};
     }
+    if (more) return {Next::Kind::again, {}};
     const TimePoint due = now + wallSeconds(ahead);
     return {Next::Kind::wait, std::min(due, nextExpiry().value_or(due))};
   }
+  if (more) return {Next::Kind::again, {}};
   std::optional<TimePoint> until = nextExpiry();
   if (!channels_.commands.empty()) until = std::min(until.value_or(now + kRetry), now + kRetry);
   return {Next::Kind::wait, until};

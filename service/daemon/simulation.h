@@ -15,9 +15,11 @@
 #include "service/daemon/channels.h"
 #include "service/daemon/frame_clock.h"
 #include "service/daemon/instrument_table.h"
+#include "service/daemon/lease.h"
 #include "service/daemon/pacer.h"
 #include "service/daemon/scene_loader.h"
 #include "service/daemon/wound_commands.h"
+#include "service/daemon/wound_names.h"
 
 namespace bleedsim::daemon {
 
@@ -79,10 +81,15 @@ class Simulation {
   Clock::duration instrumentExpiry() const;
 
   // simulation_requests.cpp
-  void drainInputs(TimePoint now);
+  /// True: more wait than one step may take.
+  bool drainInputs(TimePoint now);
+  void loseWriter(std::uint64_t writer, TimePoint now);
   void carryOut(dds::DecodedRequest& request, TimePoint now);
   Result<sph::Applied> perform(dds::DecodedRequest& request, TimePoint now);
   Result<sph::Applied> applyToWorld(const sph::Command& command);
+  Result<sph::Applied> applyToNamed(sph::Command command, const std::string& wound_name);
+  Status nameWound(sph::Command& command, const std::string& wound_name) const;
+  void noteWoundName(const sph::Command& command, std::uint32_t id);
   Status startLoading(SceneJob job, bool reset, TimePoint now);
   Result<sph::Applied> setOutput(const dds::SetOutput& output);
   void settle(dds::DecodedRequest& request, const Result<sph::Applied>& done);
@@ -114,8 +121,14 @@ class Simulation {
   void decideForWounds();
   void releaseWounds(const Status& switched);
 
+  // simulation_lease.cpp
+  Result<sph::Applied> acquireLease(const dds::DecodedRequest& request, TimePoint now);
+  Result<sph::Applied> releaseLease(const dds::DecodedRequest& request, TimePoint now);
+  Status leasedToOther(TimePoint now) const;
+
   // simulation_instruments.cpp
-  void takeSample(const InstrumentInput& input);
+  void takeSample(const InstrumentInput& input, TimePoint now);
+  void rejectSample(const dds::InstrumentSample& sample, ServiceCounter why);
   void applyInstruments();
   void endSilentInstruments(TimePoint now);
   void endInstrumentsOf(std::uint64_t writer);
@@ -132,6 +145,8 @@ class Simulation {
   Pacer pacer_;
   FrameClock frame_clock_;
   InstrumentTable instruments_;
+  Lease lease_;
+  WoundNames wound_names_;
   sph::ForceKey next_force_key_ = 1;
   std::uint32_t steps_left_ = 0;  // of a step request, in a pause
   std::uint32_t steps_in_frame_ = 0;

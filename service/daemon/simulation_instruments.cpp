@@ -3,12 +3,17 @@
 
 namespace bleedsim::daemon {
 
-void Simulation::takeSample(const InstrumentInput& input) {
-  if (pending_load_ || faulted_) {
-    channels_.counters.add(ServiceCounter::instruments_refused);
+void Simulation::takeSample(const InstrumentInput& input, TimePoint now) {
+  if (pending_load_ || faulted_ || lease_.bars(input.sample.key.client, now)) {
+    rejectSample(input.sample, ServiceCounter::instruments_refused);
   } else if (instruments_.update(input) != InstrumentTable::Update::taken) {
-    channels_.counters.add(ServiceCounter::instruments_dropped);
+    rejectSample(input.sample, ServiceCounter::instruments_dropped);
   }
+}
+
+void Simulation::rejectSample(const dds::InstrumentSample& sample, ServiceCounter why) {
+  channels_.counters.add(why);
+  channels_.clients.note(sample.key.client, dds::ClientCount::instruments_rejected);
 }
 
 void Simulation::applyInstruments() {
@@ -25,7 +30,7 @@ void Simulation::applyInstruments() {
       record(dds::InstrumentTaken{sample.original});
       continue;
     }
-    channels_.counters.add(ServiceCounter::instruments_refused);
+    rejectSample(sample, ServiceCounter::instruments_refused);
     // A tool that never pushed leaves no trace. One that did pushes no longer where it was: it may have left the domain.
     endInstrument(--i, dds::InstrumentEndReason::expired);
   }

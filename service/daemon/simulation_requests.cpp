@@ -11,23 +11,35 @@
 namespace bleedsim::daemon {
 namespace {
 
+// So that a flood of inputs cannot keep the world from stepping.
+constexpr std::size_t kInputsPerStep = 128;
+
 Status loadingNow() { return {StatusCode::wrong_state, "a scene is being loaded: wait for its reply"}; }
 Status faultedNow() { return {StatusCode::wrong_state, "the solver has stopped on bad numbers: reset or load a scene first"}; }
 
 }  // namespace
 
-void Simulation::drainInputs(TimePoint now) {
-  // At most one queue full, so that a flood of input cannot keep the world from stepping.
-  for (std::size_t i = 0; i < CommandQueue::kCapacity; ++i) {
-    if (ended_ || channels_.replies.room() < Channels::kRepliesOfSimulation || !channels_.commands.tryPop(input_)) return;
+bool Simulation::drainInputs(TimePoint now) {
+  for (std::size_t i = 0; i < kInputsPerStep; ++i) {
+    if (ended_ || channels_.replies.room() < Channels::kRepliesOfSimulation || !channels_.commands.tryPop(input_)) return false;
     std::visit(dds::Overloaded{[&](dds::DecodedRequest& request) { carryOut(request, now); },
-                               [&](InstrumentInput& sample) { takeSample(sample); },
-                               [&](const WriterLost& lost) { endInstrumentsOf(lost.writer); }},
+                               [&](InstrumentInput& sample) { takeSample(sample, now); },
+                               [&](const WriterLost& lost) { loseWriter(lost.writer, now); }},
                input_);
   }
+  return !ended_ && !channels_.commands.empty();
+}
+
+void Simulation::loseWriter(std::uint64_t writer, TimePoint now) {
+  endInstrumentsOf(writer);
+  if (lease_.loseWriter(writer, now)) showState();
 }
 
 void Simulation::carryOut(dds::DecodedRequest& request, TimePoint now) {
+  if (lease_.bars(request.key.origin.client, now)) {
+    answer(request, leasedToOther(now), 0);
+    return;
+  }
   if (holdWound(request)) return;
   const bool was_loading = pending_load_.has_value();
   const bool was_switching = pending_switch_.has_value();
@@ -60,8 +72,8 @@ Result<sph::Applied> Simulation::perform(dds::DecodedRequest& request, TimePoint
       dds::Overloaded{
           [&](const dds::Ping&) -> Result<sph::Applied> { return sph::Applied{}; },
           [&](const sph::AddWound& add) { return applyToWorld(add); },
-          [&](const sph::UpdateWound& update) { return applyToWorld(update); },
-          [&](const sph::RemoveWound& remove) { return applyToWorld(remove); },
+          [&](const sph::UpdateWound& update) { return applyToNamed(update, request.wound_name); },
+          [&](const sph::RemoveWound& remove) { return applyToNamed(remove, request.wound_name); },
           [&](const dds::PushForce& push) {
             return applyToWorld(
                 sph::SetForce{next_force_key_++, push.position, push.radius, push.force, world_->time() + push.duration});
@@ -107,6 +119,8 @@ Result<sph::Applied> Simulation::perform(dds::DecodedRequest& request, TimePoint
             if (Status started = startSwitching(set); !started) return started;
             return sph::Applied{};
           },
+          [&](const dds::AcquireLease&) { return acquireLease(request, now); },
+          [&](const dds::ReleaseLease&) { return releaseLease(request, now); },
           [&](const dds::ShutdownSession&) -> Result<sph::Applied> {
             ended_ = true;
             return sph::Applied{};
@@ -120,9 +134,34 @@ Result<sph::Applied> Simulation::applyToWorld(const sph::Command& command) {
   if (faulted_) return faultedNow();
   const std::size_t wounds_before = world_->wounds().size();
   Result<sph::Applied> applied = world_->apply(command);
-  if (applied) narrowest_wound_ = std::min(narrowest_wound_, patchWidthOf(command));
+  if (applied) {
+    narrowest_wound_ = std::min(narrowest_wound_, patchWidthOf(command));
+    noteWoundName(command, applied->object_id);
+  }
   if (world_->wounds().size() != wounds_before) showState();
   return applied;
+}
+
+Result<sph::Applied> Simulation::applyToNamed(sph::Command command, const std::string& wound_name) {
+  if (Status found = nameWound(command, wound_name); !found) return found;
+  return applyToWorld(command);
+}
+
+/// Puts the id into a command that tells its wound by the name.
+Status Simulation::nameWound(sph::Command& command, const std::string& wound_name) const {
+  if (wound_name.empty()) return {};
+  const std::optional<std::uint32_t> id = wound_names_.find(wound_name);
+  if (!id) { return {StatusCode::not_found, fmt::format("there is no wound named '{}'", wound_name)}; }
+  if (auto* update = std::get_if<sph::UpdateWound>(&command)) update->wound_id = *id;
+  if (auto* remove = std::get_if<sph::RemoveWound>(&command)) remove->wound_id = *id;
+  return {};
+}
+
+void Simulation::noteWoundName(const sph::Command& command, std::uint32_t id) {
+  if (const auto* add = std::get_if<sph::AddWound>(&command)) wound_names_.set(id, add->wound.name);
+  const auto* update = std::get_if<sph::UpdateWound>(&command);
+  if (update != nullptr && update->name) wound_names_.set(id, *update->name);
+  if (const auto* remove = std::get_if<sph::RemoveWound>(&command)) wound_names_.forget(remove->wound_id);
 }
 
 Status Simulation::startLoading(SceneJob job, bool reset, TimePoint now) {
@@ -180,7 +219,10 @@ void Simulation::answer(const dds::DecodedRequest& request, const Status& status
 }
 
 void Simulation::send(dds::Reply reply) {
-  if (reply.code != dds::ReplyCode::accepted) channels_.counters.add(ServiceCounter::requests_refused);
+  if (reply.code != dds::ReplyCode::accepted) {
+    channels_.counters.add(ServiceCounter::requests_refused);
+    channels_.clients.note(reply.key.origin.client, dds::ClientCount::refused);
+  }
   if (!channels_.replies.tryPush(std::move(reply))) {
     channels_.counters.add(ServiceCounter::replies_lost);
     channels_.reply_cache.finish(reply);  // for the client that sends its request again

@@ -26,7 +26,8 @@ bool Simulation::holdWound(dds::DecodedRequest& request) {
     possible = {StatusCode::capacity, fmt::format("{} wound commands wait for surface tension already: wait for their replies",
                                                   waiting_wounds_.size())};
   } else if (waiting_wounds_.empty()) {
-    possible = world_->checkWound(wound->command);  // a wound that will not open switches nothing
+    possible = nameWound(wound->command, request.wound_name);
+    if (possible) possible = world_->checkWound(wound->command);  // a wound that will not open switches nothing
   }
   if (!possible) {
     answer(request, possible, 0);
@@ -52,7 +53,7 @@ void Simulation::releaseWounds(const Status& switched) {
     if (!switched && callsForTension(waiting.wound.width)) {
       settle(waiting.request, Status{switched.code(), fmt::format("no surface tension for this wound: {}", switched.message())});
     } else {
-      settle(waiting.request, applyToWorld(waiting.wound.command));
+      settle(waiting.request, applyToNamed(waiting.wound.command, waiting.request.wound_name));
     }
   }
 }

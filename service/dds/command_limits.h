@@ -15,6 +15,7 @@ inline constexpr Range kComponent{-kDirection.upper, kDirection.upper, ""};
 inline constexpr Range kDischargeOrDefault{kDischargeCoefficient.lower, kDischargeCoefficient.upper, "or 0 for the default"};
 inline constexpr Range kPaceRange{kMinPace, kMaxPace, "simulated s per s"};
 inline constexpr Range kFrameRateRange{sph::kMinFrameRate, sph::kMaxFrameRate, "frames per simulated s; 0 keeps the rate"};
+inline constexpr Range kLeaseRange{kMinLease, kMaxLease, "s of wall time"};
 inline constexpr double kDefaultDischargeCoefficient = 0.61;
 
 using bleedsim::kMaxSceneBytes;

@@ -11,6 +11,9 @@ namespace bleedsim::dds {
 /// invalid_argument for a bad value, unsupported for a request or output attribute that this version does not know.
 Result<Action> decodeAction(const bleed_v1_RequestBody& body);
 
+/// The name by which a request tells its wound; empty: by the id, or it has none. invalid_argument: by both.
+Result<std::string> decodeWoundName(const bleed_v1_RequestBody& body);
+
 RequestKey requestKey(const bleed_v1_Request& sample);
 
 /// invalid_argument for a bad value.

@@ -129,6 +129,13 @@ Result<Action> decodeAction(const bleed_v1_RequestBody& body) {
       return Action{ShutdownSession{}};
     case bleed_v1_REQUEST_EFFECT:
       return asAction(decodeEffect(body._u.effect));
+    case bleed_v1_REQUEST_ACQUIRE: {
+      const double seconds = body._u.acquire.seconds;
+      if (Status range = checkNumber("acquire.seconds", seconds, kLeaseRange); !range) return range;
+      return Action{AcquireLease{seconds}};
+    }
+    case bleed_v1_REQUEST_RELEASE:
+      return Action{ReleaseLease{}};
     default:
       return Status{StatusCode::unsupported,
                     fmt::format("request {} is not known to protocol {}.{}: use a newer bleedd or an older client", body._d,

@@ -153,4 +153,23 @@ Result<sph::UpdateWound> decodeWoundUpdate(const bleed_v1_WoundUpdate& sample) {
   return update;
 }
 
+Result<std::string> decodeWoundName(const bleed_v1_RequestBody& body) {
+  const auto either = [](std::uint32_t id, std::string_view name) -> Result<std::string> {
+    if (name.empty()) return std::string{};
+    if (id != 0) {
+      return Status{StatusCode::invalid_argument,
+                    fmt::format("wound_id is {} and wound_name is given: name the wound by one of them", id)};
+    }
+    if (Status label = checkLabel("wound_name", name); !label) return label;
+    return std::string{name};
+  };
+  if (body._d == bleed_v1_REQUEST_WOUND_UPDATE) {
+    return either(body._u.wound_update.wound_id, viewText(body._u.wound_update.wound_name));
+  }
+  if (body._d == bleed_v1_REQUEST_WOUND_REMOVE) {
+    return either(body._u.wound_remove.wound_id, viewText(body._u.wound_remove.wound_name));
+  }
+  return std::string{};
+}
+
 }  // namespace bleedsim::dds

@@ -21,6 +21,7 @@ enum class ReplyCode : std::uint32_t {
   busy = bleed_v1_REPLY_BUSY,
   stale = bleed_v1_REPLY_STALE,
   failed = bleed_v1_REPLY_FAILED,
+  leased = bleed_v1_REPLY_LEASED,
 };
 
 /// The code that answers a refusal of that kind.
@@ -38,8 +39,9 @@ constexpr ReplyCode replyCode(StatusCode code) {
       return ReplyCode::state;
     case StatusCode::unsupported:
       return ReplyCode::unsupported;
-    case StatusCode::timed_out:
     case StatusCode::unavailable:
+      return ReplyCode::leased;
+    case StatusCode::timed_out:
     case StatusCode::io:
     case StatusCode::data_loss:
     case StatusCode::internal:

@@ -16,8 +16,7 @@ RequestCopy::RequestCopy(const bleed_v1_Request& sample) : sample_{sample} {
       own_outline(sample_.body._u.wound_update.wound);
       break;
     case bleed_v1_REQUEST_LOAD_SCENE:
-      text_ = sample_.body._u.load_scene.text;
-      sample_.body._u.load_scene.text = text_.data();
+      sample_.body._u.load_scene.text = no_text_;
       break;
     default:
       break;

@@ -59,10 +59,17 @@ struct SetEffect {
   std::string settings;  ///< protobuf text of the effect's message; empty: former ones or defaults
 };
 
-using Action = std::variant<Ping, sph::AddWound, sph::UpdateWound, sph::RemoveWound, PushForce, PauseSession, ResumeSession,
-                            ResetSession, StepSession, SetPace, SetOutput, LoadScene, ShutdownSession, SetEffect>;
+struct AcquireLease {
+  double seconds = 0.0;  ///< wall s
+};
+struct ReleaseLease {};
 
-/// A request sample that owns what it points to, for the journal.
+using Action =
+    std::variant<Ping, sph::AddWound, sph::UpdateWound, sph::RemoveWound, PushForce, PauseSession, ResumeSession, ResetSession,
+                 StepSession, SetPace, SetOutput, LoadScene, ShutdownSession, SetEffect, AcquireLease, ReleaseLease>;
+
+/// A request sample that owns what it points to, for the journal. It leaves out the text of a scene to load, which may be a
+/// thousand times as large as anything else there: the scene topic has it.
 class RequestCopy {
  public:
   /// `sample` must have passed decodeRequest().
@@ -76,13 +83,15 @@ class RequestCopy {
  private:
   bleed_v1_Request sample_;
   std::vector<double> outline_;
-  std::string text_;
+  char no_text_[1] = "";
 };
 
 /// Everything the service needs to carry out a request and to answer it.
 struct DecodedRequest {
   RequestKey key;
   Action action;
+  std::string wound_name{};               ///< of the wound to change or close, if it is not named by its id
+  std::uint64_t writer = 0;               ///< who sent it: transport::PublicationHandle
   std::int64_t receive_stamp_ns = 0;      ///< CLOCK_MONOTONIC
   std::unique_ptr<RequestCopy> original;  ///< for the journal
 };

@@ -1,5 +1,7 @@
 #include "service/dds/session_encoder.h"
 
+#include <algorithm>
+
 #include "service/dds/bounded_text.h"
 #include "service/dds/command_limits.h"
 #include "service/dds/frame_encoder.h"
@@ -27,7 +29,8 @@ StatusEncoder::StatusEncoder(const SessionIdentity& identity) {
   counters_.reserve(kMaxCounters);
 }
 
-const bleed_v1_Status& StatusEncoder::encode(const StatusReport& report, std::span<const NamedCount> counts) {
+const bleed_v1_Status& StatusEncoder::encode(const StatusReport& report, std::span<const NamedCount> counts,
+                                             std::span<const ClientActivity> clients) {
   sample_.state = static_cast<std::uint32_t>(report.state);
   sample_.epoch = report.epoch;
   sample_.step = report.step;
@@ -50,7 +53,32 @@ const bleed_v1_Status& StatusEncoder::encode(const StatusReport& report, std::sp
   copyText(shortened(report.text, sizeof sample_.text - 1), sample_.text);
   sample_.monotonic_stamp_ns = transport::monotonicNow();
   sample_.realtime_stamp_ns = transport::realtimeNow();
+  encodeClients(clients);
+  const std::int64_t lease_left = std::max<std::int64_t>(report.lease_until_ns - sample_.monotonic_stamp_ns, 0);
+  transport::copyUuid(lease_left > 0 ? report.lease_client : Uuid{}, sample_.lease_client);
+  sample_.lease_left_s = static_cast<double>(lease_left) * 1e-9;
   return sample_;
+}
+
+void StatusEncoder::encodeClients(std::span<const ClientActivity> clients) {
+  const auto count_of = [](const ClientActivity& activity, ClientCount what) {
+    return activity.counts[static_cast<std::size_t>(what)];
+  };
+  const std::size_t count = std::min(clients.size(), clients_.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const ClientActivity& from = clients[i];
+    bleed_v1_ClientActivity& to = clients_[i];
+    transport::copyUuid(from.client, to.client);
+    to.requests = count_of(from, ClientCount::requests);
+    to.refused = count_of(from, ClientCount::refused);
+    to.busy = count_of(from, ClientCount::busy);
+    to.resent = count_of(from, ClientCount::resent);
+    to.instrument_samples = count_of(from, ClientCount::instrument_samples);
+    to.instruments_rejected = count_of(from, ClientCount::instruments_rejected);
+    to.silent_s = static_cast<double>(std::max<std::int64_t>(sample_.monotonic_stamp_ns - from.last_heard_ns, 0)) * 1e-9;
+  }
+  const auto length = static_cast<std::uint32_t>(count);
+  sample_.clients = {length, length, clients_.data(), false};
 }
 
 SceneEncoder::SceneEncoder(const SessionIdentity& identity) {

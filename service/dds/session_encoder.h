@@ -1,6 +1,7 @@
 // The small samples: scene, status, reply and journal.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -20,14 +21,18 @@ class StatusEncoder {
   StatusEncoder& operator=(const StatusEncoder&) = delete;
 
   /// Stamps the sample with the present time and the next heartbeat. Valid until the next call.
-  const bleed_v1_Status& encode(const StatusReport& report, std::span<const NamedCount> counts);
+  const bleed_v1_Status& encode(const StatusReport& report, std::span<const NamedCount> counts,
+                                std::span<const ClientActivity> clients);
 
   /// Heartbeats given so far.
   std::uint64_t heartbeat() const { return sample_.heartbeat; }
 
  private:
+  void encodeClients(std::span<const ClientActivity> clients);
+
   bleed_v1_Status sample_{};
   std::vector<bleed_v1_Counter> counters_;
+  std::array<bleed_v1_ClientActivity, kMaxClients> clients_{};
 };
 
 class SceneEncoder {

@@ -37,6 +37,17 @@ struct NamedCount {
   std::uint64_t value = 0;
 };
 
+inline constexpr std::size_t kMaxClients = 32;  ///< on the status topic
+
+enum class ClientCount { requests, refused, busy, resent, instrument_samples, instruments_rejected, count };
+
+/// What one client has sent; the fields of bleed_v1_ClientActivity.
+struct ClientActivity {
+  Uuid client{};
+  std::array<std::uint64_t, static_cast<std::size_t>(ClientCount::count)> counts{};
+  std::int64_t last_heard_ns = 0;  ///< CLOCK_MONOTONIC
+};
+
 struct StatusReport {
   SessionState state = SessionState::loading;
   std::uint32_t epoch = 0;
@@ -52,6 +63,8 @@ struct StatusReport {
   /// The solver's, as of the last frame, by sph::Counter.
   std::array<std::uint64_t, static_cast<std::size_t>(sph::Counter::count)> faults{};
   std::size_t full_frame_bytes = 0;  ///< payload of a frame at capacity; not published
+  Uuid lease_client{};               ///< of the lease that lasts until lease_until_ns
+  std::int64_t lease_until_ns = 0;   ///< CLOCK_MONOTONIC
 };
 
 /// What late joiners need to read frames. One per epoch and switched effect.

@@ -125,6 +125,22 @@ void counters(ToMessage& to, const char* name, const Sequence& in, Repeated& out
   out.set_realtime_stamp_ns(sample.realtime_stamp_ns);
   out.set_start_stamp_ns(sample.start_stamp_ns);
   out.set_behind_s(sample.behind_s);
+  if (to.has("status.clients", sample.clients)) {
+    for (std::uint32_t i = 0; i < sample.clients._length; ++i) {
+      const bleed_v1_ClientActivity& from = sample.clients._buffer[i];
+      ClientActivity& client = *out.add_clients();
+      to.uuid(from.client, client.mutable_client());
+      client.set_requests(from.requests);
+      client.set_refused(from.refused);
+      client.set_busy(from.busy);
+      client.set_resent(from.resent);
+      client.set_instrument_samples(from.instrument_samples);
+      client.set_instruments_rejected(from.instruments_rejected);
+      client.set_silent_s(from.silent_s);
+    }
+  }
+  to.uuid(sample.lease_client, out.mutable_lease_client());
+  out.set_lease_left_s(sample.lease_left_s);
   return to.status();
 }
 

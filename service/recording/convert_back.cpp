@@ -17,6 +17,7 @@ constexpr int kMaxWounds = 1024;
 constexpr int kMaxCounters = 64;
 constexpr int kMaxInstruments = 64;
 constexpr int kMaxEffects = 64;
+constexpr int kMaxClients = 32;
 
 template <class T>
 SamplePtr<T> makeSample() {
@@ -158,6 +159,23 @@ Result<SamplePtr<bleed_v1_Status>> fromRecording(const recording::Status& messag
   out->realtime_stamp_ns = message.realtime_stamp_ns();
   out->start_stamp_ns = message.start_stamp_ns();
   out->behind_s = message.behind_s();
+  if (to.reserve("status.clients", message.clients_size(), kMaxClients, out->clients)) {
+    for (int i = 0; i < message.clients_size(); ++i) {
+      const ClientActivity& from = message.clients(i);
+      bleed_v1_ClientActivity& client = out->clients._buffer[i];
+      to.uuid("status.clients.client", from.client(), client.client);
+      client.requests = from.requests();
+      client.refused = from.refused();
+      client.busy = from.busy();
+      client.resent = from.resent();
+      client.instrument_samples = from.instrument_samples();
+      client.instruments_rejected = from.instruments_rejected();
+      client.silent_s = from.silent_s();
+    }
+  }
+  // Recordings of before protocol 1.2 have none.
+  if (!message.lease_client().empty()) to.uuid("status.lease_client", message.lease_client(), out->lease_client);
+  out->lease_left_s = message.lease_left_s();
   return finish(to, std::move(out));
 }
 

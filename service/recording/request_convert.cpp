@@ -61,9 +61,11 @@ void requestToMessage(ToMessage& to, const bleed_v1_Request& in, Request& out) {
       out.mutable_wound_update()->set_wound_id(body.wound_update.wound_id);
       out.mutable_wound_update()->set_fields(body.wound_update.fields);
       woundToMessage(to, body.wound_update.wound, *out.mutable_wound_update()->mutable_wound());
+      to.text("wound_update.wound_name", body.wound_update.wound_name, out.mutable_wound_update()->mutable_wound_name());
       break;
     case bleed_v1_REQUEST_WOUND_REMOVE:
       out.mutable_wound_remove()->set_wound_id(body.wound_remove.wound_id);
+      to.text("wound_remove.wound_name", body.wound_remove.wound_name, out.mutable_wound_remove()->mutable_wound_name());
       break;
     case bleed_v1_REQUEST_FORCE:
       to.vec3(body.force.position, out.mutable_force()->mutable_position());
@@ -103,6 +105,12 @@ void requestToMessage(ToMessage& to, const bleed_v1_Request& in, Request& out) {
       out.mutable_effect()->set_enabled(body.effect.enabled);
       to.text("effect.settings", body.effect.settings, out.mutable_effect()->mutable_settings());
       break;
+    case bleed_v1_REQUEST_ACQUIRE:
+      out.mutable_acquire()->set_seconds(body.acquire.seconds);
+      break;
+    case bleed_v1_REQUEST_RELEASE:
+      out.mutable_release();
+      break;
     default:
       to.fail(StatusCode::unsupported,
               fmt::format("request kind {} is not known to this version; use a newer client", in.body._d));
@@ -128,10 +136,12 @@ void requestToSample(ToSample& to, const Request& in, bleed_v1_Request& out) {
       body.wound_update.wound_id = in.wound_update().wound_id();
       body.wound_update.fields = in.wound_update().fields();
       woundToSample(to, in.wound_update().wound(), body.wound_update.wound);
+      to.text("wound_update.wound_name", in.wound_update().wound_name(), body.wound_update.wound_name);
       break;
     case Request::kWoundRemove:
       out.body._d = bleed_v1_REQUEST_WOUND_REMOVE;
       body.wound_remove.wound_id = in.wound_remove().wound_id();
+      to.text("wound_remove.wound_name", in.wound_remove().wound_name(), body.wound_remove.wound_name);
       break;
     case Request::kForce:
       out.body._d = bleed_v1_REQUEST_FORCE;
@@ -173,6 +183,13 @@ void requestToSample(ToSample& to, const Request& in, bleed_v1_Request& out) {
       to.text("effect.name", in.effect().name(), body.effect.name);
       body.effect.enabled = in.effect().enabled();
       to.text("effect.settings", in.effect().settings(), body.effect.settings);
+      break;
+    case Request::kAcquire:
+      out.body._d = bleed_v1_REQUEST_ACQUIRE;
+      body.acquire.seconds = in.acquire().seconds();
+      break;
+    case Request::kRelease:
+      out.body._d = bleed_v1_REQUEST_RELEASE;
       break;
     case Request::BODY_NOT_SET:
       to.fail("request.body is missing");

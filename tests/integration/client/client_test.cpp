@@ -1,9 +1,11 @@
 // The client library against a fake service over loopback.
 #include "bleedsim/client.h"
 
+#include <condition_variable>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mutex>
 #include <optional>
 #include <unistd.h>
 
@@ -292,6 +294,85 @@ TEST_F(ClientTest, NoticesThatASessionEnds) {
   Session stops = open("stops");
   next->publishStatus(bleed_v1_STATE_STOPPED);
   EXPECT_TRUE(stops.waitGone(kLong));
+}
+
+// What the callback is told, for a test to wait for.
+class ConnectionLog {
+ public:
+  void note(const client::ConnectionState& state) {
+    const std::lock_guard lock{mutex_};
+    states_.push_back(state);
+    changed_.notify_all();
+  }
+  client::ConnectionState wait(std::size_t count) {
+    std::unique_lock lock{mutex_};
+    EXPECT_TRUE(changed_.wait_for(lock, kLong, [&] { return states_.size() >= count; }));
+    return states_.empty() ? client::ConnectionState{} : states_.back();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<client::ConnectionState> states_;
+};
+
+TEST_F(ClientTest, ReconnectsToAnotherDaemonOfTheName) {
+  ConnectionLog log;
+  auto service = serve("back");
+  Session session = open("back", {.delivery = Delivery::queue, .on_connection = [&log](const auto& state) { log.note(state); }});
+  ASSERT_TRUE(session.ping(kLong).ok());
+  auto tool = session.instrument(1, "PSM1");
+  ASSERT_TRUE(tool.ok());
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  ASSERT_TRUE(service->publishFrame(7).ok());
+  ASSERT_TRUE(session.waitFrame(kLong).ok());
+  service.reset();
+  const client::ConnectionState lost = log.wait(1);
+  EXPECT_FALSE(lost.connected);
+  EXPECT_EQ(lost.losses, 1U);
+  EXPECT_FALSE(session.connection().connected);
+
+  service = serve("back");
+  ASSERT_TRUE(session.waitAlive(kLong));
+  const client::ConnectionState back = log.wait(2);
+  EXPECT_TRUE(back.connected);
+  EXPECT_EQ(back.replacements, 1U);
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  ASSERT_TRUE(service->publishFrame(100).ok());
+  const auto frame = session.waitFrame(kLong);
+  ASSERT_TRUE(frame.ok()) << frame.status().message();
+  EXPECT_EQ((*frame)->header().seq, 100U);
+  EXPECT_EQ(session.frameCounters().gaps, 0U) << "the numbers of another daemon";
+  EXPECT_TRUE(session.pause().get().accepted());
+  ASSERT_TRUE(service->waitRequests(2)) << "a ping by itself, and the pause";
+  ASSERT_TRUE(session.clockOffset().has_value());
+  EXPECT_EQ(session.clockOffset()->samples, 1U) << "the other daemon's clock";
+  while (service->instruments().empty()) ASSERT_TRUE(tool->send({.tip_radius_m = 0.01}).ok());
+}
+
+TEST_F(ClientTest, NamesWoundsAndTakesALease) {
+  std::vector<bleed_v1_Request> seen;
+  std::mutex mutex;
+  const auto service = serve("lease", [&](const bleed_v1_Request& request, bleed_v1_Reply& reply) {
+    const std::lock_guard lock{mutex};
+    seen.push_back(request);
+    if (request.body._d == bleed_v1_REQUEST_RELEASE) reply.code = bleed_v1_REPLY_LEASED;
+    return true;
+  });
+  Session session = open("lease");
+  EXPECT_TRUE(session.acquireLease(2500ms).get().accepted());
+  EXPECT_EQ(session.releaseLease().get().code, ReplyCode::leased);
+  EXPECT_TRUE(session.updateWound("liver", {.flow_ml_per_s = 1.0}).get().accepted());
+  EXPECT_TRUE(session.removeWound("liver").get().accepted());
+  EXPECT_EQ(session.removeWound("").get().code, ReplyCode::not_sent);
+  EXPECT_EQ(session.updateWound(std::string(65, 'x'), {.flow_ml_per_s = 1.0}).get().code, ReplyCode::not_sent);
+  const std::lock_guard lock{mutex};
+  ASSERT_EQ(seen.size(), 4U);
+  EXPECT_EQ(transport::toUuid(seen[0].client), session.clientId());
+  EXPECT_EQ(seen[0].body._u.acquire.seconds, 2.5);
+  EXPECT_STREQ(seen[2].body._u.wound_update.wound_name, "liver");
+  EXPECT_EQ(seen[2].body._u.wound_update.wound_id, 0U);
+  EXPECT_STREQ(seen[3].body._u.wound_remove.wound_name, "liver");
 }
 
 TEST_F(ClientTest, RefusesOptionsOutOfRange) {

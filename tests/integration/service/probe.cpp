@@ -75,6 +75,13 @@ std::uint64_t StatusHead::counter(const std::string& counter_name) const {
   return 0;
 }
 
+bleed_v1_ClientActivity StatusHead::activityOf(const transport::Uuid& client) const {
+  for (const bleed_v1_ClientActivity& activity : clients) {
+    if (transport::toUuid(activity.client) == client) return activity;
+  }
+  return {};
+}
+
 Probe::Probe(std::uint32_t domain, const std::string& session, Reading frames)
     : participant_{join(domain)},
       frames_{need(Reader<bleed_v1_Frame>::create(participant_, session, readerQos(Topic::frame, frames)))},
@@ -112,12 +119,19 @@ bool Probe::next(Reader<T>& reader, const std::function<bool(const T&)>& use) {
 
 bleed_v1_Reply Probe::ask(const bleed_v1_RequestBody& body) { return askAs(++seq_, body); }
 
-bleed_v1_Reply Probe::askAs(std::uint64_t seq, const bleed_v1_RequestBody& body) {
+bleed_v1_Request Probe::numbered(std::uint64_t seq, const bleed_v1_RequestBody& body) const {
   bleed_v1_Request request{};
   transport::copyUuid(client_, request.client);
   request.run = run_;
   request.seq = seq;
   request.body = body;
+  return request;
+}
+
+bool Probe::send(const bleed_v1_RequestBody& body) { return requests_.write(numbered(++seq_, body)).ok(); }
+
+bleed_v1_Reply Probe::askAs(std::uint64_t seq, const bleed_v1_RequestBody& body) {
+  const bleed_v1_Request request = numbered(seq, body);
   auto wait_set = need(transport::WaitSet::create(participant_));
   EXPECT_TRUE(wait_set.attach(replies_, 0).ok());
   const auto end = std::chrono::steady_clock::now() + test::kPatience;
@@ -195,7 +209,10 @@ StatusHead Probe::status(const std::function<bool(const StatusHead&)>& fits) {
             status.heartbeat,
             status.pid,
             {},
-            status.text};
+            status.text,
+            {},
+            transport::toUuid(status.lease_client)};
+    for (std::uint32_t i = 0; i < status.clients._length; ++i) head.clients.push_back(status.clients._buffer[i]);
     for (std::uint32_t i = 0; i < status.counters._length; ++i) {
       head.counters.emplace_back(status.counters._buffer[i].name, status.counters._buffer[i].value);
     }

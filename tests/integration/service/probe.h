@@ -70,7 +70,12 @@ struct StatusHead {
   std::vector<std::pair<std::string, std::uint64_t>> counters;
   std::string text;
 
+  std::vector<bleed_v1_ClientActivity> clients;
+  transport::Uuid lease_client{};
+
   std::uint64_t counter(const std::string& counter_name) const;
+  /// All zeros if the session has not heard of it.
+  bleed_v1_ClientActivity activityOf(const transport::Uuid& client) const;
 };
 
 class Probe {
@@ -85,6 +90,12 @@ class Probe {
   bleed_v1_Reply ask(const bleed_v1_RequestBody& body);
   bleed_v1_Reply askAs(std::uint64_t seq, const bleed_v1_RequestBody& body);
   bleed_v1_Reply ask(std::uint32_t kind, const Body& fill = {}) { return ask(body(kind, fill)); }
+
+  /// Sends once and does not wait for the answer; false: the middleware took it not in time.
+  bool send(const bleed_v1_RequestBody& body);
+  const transport::Uuid& client() const { return client_; }
+  /// From now on it passes for the other one, started again.
+  void impersonate(const Probe& other) { client_ = other.client_; }
 
   /// A good sample, unless `spoil` makes it a bad one.
   void sendInstrument(std::uint64_t seq, const std::function<void(bleed_v1_Instrument&)>& spoil = {});
@@ -111,6 +122,8 @@ class Probe {
   transport::Uuid client_ = transport::drawUuid();
   std::uint64_t run_ = transport::drawRun();
   std::uint64_t seq_ = 0;
+  bleed_v1_Request numbered(std::uint64_t seq, const bleed_v1_RequestBody& body) const;
+
   transport::Reader<bleed_v1_Frame> frames_;
   transport::Reader<bleed_v1_FrameStats> stats_;
   transport::Reader<bleed_v1_Status> statuses_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,10 +25,14 @@ class SimulationTest : public testing::Test {
     for (int i = 0; i < count; ++i) tick();
   }
 
-  void push(dds::Action action) {
+  void push(dds::Action action, const std::string& wound_name = {}) { pushAs(1, std::move(action), wound_name); }
+  /// Of the client with that uuid and writer.
+  void pushAs(std::uint8_t client, dds::Action action, const std::string& wound_name = {}) {
     dds::DecodedRequest request;
-    request.key = {{dds::Uuid{1}, 1}, ++seq_};
+    request.key = {{dds::Uuid{client}, 1}, ++seq_};
     request.action = std::move(action);
+    request.wound_name = wound_name;
+    request.writer = client;
     bleed_v1_Request original{};
     original.seq = seq_;
     request.original = std::make_unique<dds::RequestCopy>(original);
@@ -36,6 +41,11 @@ class SimulationTest : public testing::Test {
   /// Pushes, ticks, and gives back the answer.
   dds::Reply ask(dds::Action action) {
     push(std::move(action));
+    tick();
+    return reply();
+  }
+  dds::Reply askAs(std::uint8_t client, dds::Action action) {
+    pushAs(client, std::move(action));
     tick();
     return reply();
   }

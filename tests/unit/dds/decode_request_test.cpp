@@ -55,6 +55,17 @@ bleed_v1_RequestBody effect(const std::string& name, bool enabled, const std::st
   body._u.effect.enabled = enabled;
   return body;
 }
+bleed_v1_RequestBody acquire(double seconds) {
+  bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_ACQUIRE);
+  body._u.acquire.seconds = seconds;
+  return body;
+}
+bleed_v1_RequestBody removal(std::uint32_t id, const std::string& name) {
+  bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_WOUND_REMOVE);
+  body._u.wound_remove.wound_id = id;
+  std::memcpy(body._u.wound_remove.wound_name, name.data(), name.size());
+  return body;
+}
 bleed_v1_RequestBody steps(std::uint32_t count) {
   bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_STEP);
   body._u.step.count = count;
@@ -116,6 +127,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadRequest{"attribute_unknown", [] { return output(0.0, 1U << 31U); }, StatusCode::unsupported, "output.attributes"},
         BadRequest{"no_steps", [] { return steps(0); }, StatusCode::invalid_argument, "step.count is 0"},
         BadRequest{"too_many_steps", [] { return steps(0xFFFFFFFFU); }, StatusCode::invalid_argument, "step.count"},
+        BadRequest{"lease_short", [] { return acquire(0.5); }, StatusCode::invalid_argument, "acquire.seconds is 0.5"},
+        BadRequest{"lease_long", [] { return acquire(301.0); }, StatusCode::invalid_argument, "1 to 300 s of wall time"},
+        BadRequest{"lease_nan", [] { return acquire(kNaN); }, StatusCode::invalid_argument, "acquire.seconds is nan"},
         BadRequest{"scene_null", [] { return sceneText(nullptr); }, StatusCode::invalid_argument, "load_scene.text is empty"},
         BadRequest{"scene_empty", [] { return sceneText(empty_text); }, StatusCode::invalid_argument,
                    "load_scene.text is empty"}),
@@ -184,6 +198,19 @@ TEST(DecodeAction, ReadsABooleanOfAnyByte) {
   EXPECT_FALSE(std::get<SetOutput>(*action).frame_rate.has_value());
 }
 
+TEST(DecodeWoundName, IsEitherIdOrName) {
+  EXPECT_EQ(*decodeWoundName(removal(0, "liver")), "liver");
+  EXPECT_EQ(*decodeWoundName(removal(3, "")), "");
+  const auto both = decodeWoundName(removal(3, "liver"));
+  EXPECT_EQ(both.status().code(), StatusCode::invalid_argument);
+  EXPECT_THAT(both.status().message(), HasSubstr("by one of them"));
+  EXPECT_EQ(decodeWoundName(removal(0, "li\nver")).status().code(), StatusCode::invalid_argument);
+  bleed_v1_RequestBody update = bodyOf(bleed_v1_REQUEST_WOUND_UPDATE);
+  copyText("spleen", update._u.wound_update.wound_name);
+  EXPECT_EQ(*decodeWoundName(update), "spleen");
+  EXPECT_EQ(*decodeWoundName(bodyOf(bleed_v1_REQUEST_PAUSE)), "");
+}
+
 TEST(RequestCopy, OwnsWhatItPointsTo) {
   std::vector<double> outline{0.0, 0.0, 0.01, 0.0, 0.0, 0.01};
   bleed_v1_Request request{};
@@ -200,7 +227,7 @@ TEST(RequestCopy, OwnsWhatItPointsTo) {
   request.body = sceneText(text.data());
   const RequestCopy scene{request};
   text.assign(text.size(), 'x');
-  EXPECT_STREQ(scene.sample().body._u.load_scene.text, "name: 'a'");
+  EXPECT_STREQ(scene.sample().body._u.load_scene.text, "") << "the scene topic has it";
 }
 
 TEST(DecodeInstrument, KeepsWhatTheSampleSays) {

@@ -141,7 +141,7 @@ TEST(DecodeWound, RefusesBadOutlines) {
 }
 
 TEST(DecodeWoundUpdate, ReadsOnlyTheNamedMembers) {
-  bleed_v1_WoundUpdate sample{5, bleed_v1_WOUND_FIELD_DRIVE, discWound()};
+  bleed_v1_WoundUpdate sample{5, bleed_v1_WOUND_FIELD_DRIVE, discWound(), ""};
   sample.wound.position.x = kNaN;
   sample.wound.shape = 99;
   const auto update = decodeWoundUpdate(sample);
@@ -155,8 +155,8 @@ TEST(DecodeWoundUpdate, ReadsOnlyTheNamedMembers) {
 }
 
 TEST(DecodeWoundUpdate, RefusesNoMemberAndUnknownMembers) {
-  EXPECT_FALSE(decodeWoundUpdate({5, 0, discWound()}).ok());
-  EXPECT_FALSE(decodeWoundUpdate({5, 32, discWound()}).ok());
+  EXPECT_FALSE(decodeWoundUpdate({5, 0, discWound(), ""}).ok());
+  EXPECT_FALSE(decodeWoundUpdate({5, 32, discWound(), ""}).ok());
 }
 
 }  // namespace

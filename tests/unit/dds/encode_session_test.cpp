@@ -72,9 +72,9 @@ TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
   report.pace = {PaceMode::factor, 0.5};
   report.faults[static_cast<std::size_t>(sph::Counter::speed_clamped)] = 5;
   const std::vector<NamedCount> counts(80, NamedCount{"many", 1});
-  EXPECT_EQ(encoder.encode(report, counts).heartbeat, 1U);
+  EXPECT_EQ(encoder.encode(report, counts, {}).heartbeat, 1U);
   const std::int64_t before = transport::monotonicNow();
-  const bleed_v1_Status& status = encoder.encode(report, counts);
+  const bleed_v1_Status& status = encoder.encode(report, counts, {});
   EXPECT_EQ(status.heartbeat, 2U);
   EXPECT_STREQ(status.session_name, "theatre");
   EXPECT_EQ(status.pid, 77);
@@ -86,6 +86,35 @@ TEST(StatusEncoder, CountsHeartbeatsAndCutsText) {
   EXPECT_EQ(status.pace_mode, static_cast<std::uint32_t>(bleed_v1_PACE_FACTOR));
   EXPECT_GE(status.monotonic_stamp_ns, before);
   EXPECT_LE(status.monotonic_stamp_ns, transport::monotonicNow());
+}
+
+TEST(StatusEncoder, TellsOfClientsAndTheLease) {
+  StatusEncoder encoder{identity()};
+  StatusReport report;
+  const std::int64_t now = transport::monotonicNow();
+  std::vector<ClientActivity> clients(2);
+  clients[1] = {Uuid{9}, {1, 2, 3, 4, 5, 6}, now - 2'000'000'000};
+  EXPECT_EQ(encoder.encode(report, {}, clients).lease_left_s, 0.0);
+  report.lease_client = Uuid{9};
+  report.lease_until_ns = now + 60'000'000'000;
+  const bleed_v1_Status& status = encoder.encode(report, {}, clients);
+  ASSERT_EQ(status.clients._length, 2U);
+  const bleed_v1_ClientActivity& client = status.clients._buffer[1];
+  EXPECT_EQ(client.client[0], 9);
+  EXPECT_EQ(client.requests, 1U);
+  EXPECT_EQ(client.refused, 2U);
+  EXPECT_EQ(client.busy, 3U);
+  EXPECT_EQ(client.resent, 4U);
+  EXPECT_EQ(client.instrument_samples, 5U);
+  EXPECT_EQ(client.instruments_rejected, 6U);
+  EXPECT_GE(client.silent_s, 2.0);
+  EXPECT_EQ(status.lease_client[0], 9);
+  EXPECT_GT(status.lease_left_s, 0.0);
+  EXPECT_LE(status.lease_left_s, 60.0);
+
+  report.lease_until_ns = now - 1;
+  EXPECT_EQ(encoder.encode(report, {}, {}).lease_client[0], 0) << "expired";
+  EXPECT_EQ(encoder.encode(report, {}, {}).clients._length, 0U);
 }
 
 TEST(SceneEncoder, TellsUnitsAndBounds) {

@@ -67,6 +67,7 @@ enum class ReplyCode {
   busy,
   stale,
   failed,
+  leased,     ///< another client holds the lease
   no_answer,  ///< given by the library: the time ran out or the session was closed
   not_sent,   ///< given by the library: refused before sending
 };

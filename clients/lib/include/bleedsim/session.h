@@ -25,12 +25,22 @@ enum class Delivery {
 
 using FramePointer = std::shared_ptr<const Frame>;
 
+/// Whether the session is heard of. The library reconnects by itself, to the daemon that was lost as to another one of the same
+/// name: frames go on, numbers that were missed count as gaps of the former, commands and instruments reach it again. A command
+/// whose time runs out meanwhile gets ReplyCode::no_answer.
+struct ConnectionState {
+  bool connected = true;
+  std::uint64_t losses = 0;        ///< how often it was lost or ended
+  std::uint64_t replacements = 0;  ///< how often another daemon has taken the name; the clock offset starts anew then
+};
+
 struct SessionOptions {
   Delivery delivery = Delivery::newest;
-  std::size_t queue_length = 64;                        ///< of Delivery::queue, 1 to 256
-  std::function<void(const FramePointer&)> on_frame{};  ///< called on the session's thread instead of keeping the frame
-  std::function<void(const FrameStats&)> on_stats{};    ///< called on the session's thread
-  std::chrono::milliseconds command_timeout{5000};      ///< until a command's future gets ReplyCode::no_answer
+  std::size_t queue_length = 64;                                ///< of Delivery::queue, 1 to 256
+  std::function<void(const FramePointer&)> on_frame{};          ///< called on the session's thread instead of keeping the frame
+  std::function<void(const FrameStats&)> on_stats{};            ///< called on the session's thread
+  std::function<void(const ConnectionState&)> on_connection{};  ///< called on the session's thread when it changes
+  std::chrono::milliseconds command_timeout{5000};              ///< until a command's future gets ReplyCode::no_answer
 };
 
 /// Move-only; all methods may be called from any thread. Closing it answers every open command with ReplyCode::no_answer.
@@ -55,8 +65,11 @@ class Session {
   Result<SessionStatus> waitStatus(const std::function<bool(const SessionStatus&)>& condition, std::chrono::nanoseconds timeout);
   /// Waits for the scene, which a running session sends at once.
   Result<SceneInfo> waitScene(std::chrono::nanoseconds timeout);
-  /// False once the session has stopped or was not heard of for 2 to 3 s.
+  /// False once the session has stopped or was not heard of for 2 to 3 s; true again when it comes back.
   bool alive() const;
+  ConnectionState connection() const;
+  /// Waits until alive() is true; false: it is still gone.
+  bool waitAlive(std::chrono::nanoseconds timeout);
   /// Waits until alive() is false; false: it still lives.
   bool waitGone(std::chrono::nanoseconds timeout);
 
@@ -65,6 +78,9 @@ class Session {
   std::future<Reply> updateWound(std::uint32_t wound_id, const WoundChange& change);
   std::future<Reply> moveWound(std::uint32_t wound_id, const Vec3& position, const std::optional<Vec3>& normal = std::nullopt);
   std::future<Reply> removeWound(std::uint32_t wound_id);
+  /// The same for the wound that was opened with this name, by whichever client. For services since protocol 1.2.
+  std::future<Reply> updateWound(const std::string& name, const WoundChange& change);
+  std::future<Reply> removeWound(const std::string& name);
   std::future<Reply> force(const ForceSpec& force);
   std::future<Reply> pause();
   std::future<Reply> resume();
@@ -77,6 +93,13 @@ class Session {
   /// idl/scene.proto; empty: the settings it had when it was last on, or its defaults. The answer comes when it acts.
   std::future<Reply> setEffect(const std::string& name, bool enabled, const std::string& settings = {});
   std::future<Reply> shutdown();
+  /// Makes this session object the only one that may command, for `length` of wall time (1 to 300 s): the commands of others get
+  /// ReplyCode::leased and their instruments are not used. Acquire it again to keep it. It ends with this object, too. For
+  /// services since protocol 1.2.
+  std::future<Reply> acquireLease(std::chrono::milliseconds length);
+  std::future<Reply> releaseLease();
+  /// By which this object is known to the service: see SessionStatus::clients and lease_client.
+  const Uuid& clientId() const;
 
   /// One round trip, which also improves clockOffset(). timed_out: no answer.
   Result<std::chrono::nanoseconds> ping(std::chrono::nanoseconds timeout);

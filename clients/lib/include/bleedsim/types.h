@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,12 +17,27 @@ using Vec3 = std::array<double, 3>;
 using Quaternion = std::array<double, 4>;
 using Uuid = std::array<std::uint8_t, 16>;
 
+/// 8-4-4-4-12 hexadecimal digits.
+std::string toString(const Uuid& uuid);
+
 enum class SessionState { loading, running, paused, faulted, stopped, unknown };
 const char* toString(SessionState state);
 
 enum class PaceMode { real_time, factor, maximum };
 
 using NamedCounter = std::pair<std::string, std::uint64_t>;
+
+/// What one client has sent to a session since it was heard of first there.
+struct ClientActivity {
+  Uuid client{};
+  std::uint64_t requests = 0;
+  std::uint64_t refused = 0;  ///< answered with anything but accepted
+  std::uint64_t busy = 0;     ///< of these, for want of room: it sends faster than it is served
+  std::uint64_t resent = 0;   ///< known requests that came again
+  std::uint64_t instrument_samples = 0;
+  std::uint64_t instruments_rejected = 0;
+  double silent_s = 0.0;  ///< wall time since its last sample
+};
 
 /// What a session says of itself, at least twice a second and at every change.
 struct SessionStatus {
@@ -47,6 +63,10 @@ struct SessionStatus {
   std::int64_t realtime_stamp_ns = 0;
   std::int64_t start_stamp_ns = 0;  ///< CLOCK_REALTIME when the daemon started
   double behind_s = 0.0;            ///< wall time that the pacing owes
+  // Nothing from services before protocol 1.2:
+  std::vector<ClientActivity> clients;  ///< at most 32, those heard of last
+  std::optional<Uuid> lease_client;     ///< the only one that may command now
+  double lease_left_s = 0.0;            ///< wall time until the lease expires by itself
 };
 
 /// The scene that runs; sent at each load, when an effect was switched, and to late joiners.
