@@ -60,6 +60,8 @@ struct RecordingWriter::Impl {
   std::string bytes;
   std::uint64_t last_time_ns = 0;
   std::map<std::string, std::string> origin;  ///< of the first scene
+  SessionKey last_session;                    ///< of the last frame
+  std::uint64_t published_until = 0;
   bool closed = false;
   ::bleedsim::Status closing;
 };
@@ -92,6 +94,7 @@ template <class Sample, class Message>
   record.entries["frames"] = std::to_string(counts.frames);
   record.entries["gaps"] = std::to_string(counts.gaps);
   record.entries["gap_ranges"] = ranges;
+  if (published_until > 0) record.entries["published_until"] = std::to_string(published_until);
   record.entries["skipped"] = std::to_string(counts.skipped);
   record.entries["refused"] = std::to_string(counts.refused);
   record.entries["journal_entries"] = std::to_string(counts.journal_entries);
@@ -137,7 +140,8 @@ RecordingWriter::~RecordingWriter() {
   ::bleedsim::Status status = impl_->store(Topic::frame, sample, impl_->frame, log_time_ns, published);
   if (status) {
     ++impl_->counts.frames;
-    impl_->frames.add(keyOf(sample.session), sample.epoch, sample.seq);
+    impl_->last_session = keyOf(sample.session);
+    impl_->frames.add(impl_->last_session, sample.epoch, sample.seq);
     impl_->counts.gaps = impl_->frames.missing();
     impl_->replay.addFrame(keyOf(sample.session), sample.epoch);
   }
@@ -189,6 +193,13 @@ RecordingWriter::~RecordingWriter() {
 void RecordingWriter::skip(const bleed_v1_Frame& sample) {
   ++impl_->counts.skipped;
   impl_->frames.add(keyOf(sample.session), sample.epoch, sample.seq);
+  impl_->counts.gaps = impl_->frames.missing();
+  impl_->last_session = keyOf(sample.session);
+}
+
+void RecordingWriter::publishedUntil(std::uint64_t seq) {
+  impl_->published_until = std::max(impl_->published_until, seq);
+  impl_->frames.publishedUntil(impl_->last_session, seq);
   impl_->counts.gaps = impl_->frames.missing();
 }
 

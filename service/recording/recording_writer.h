@@ -23,7 +23,7 @@ struct WriterOptions {
 /// What a writer has taken so far.
 struct WriterCounts {
   std::uint64_t frames = 0;
-  std::uint64_t gaps = 0;     ///< frames missing between recorded ones, by their seq
+  std::uint64_t gaps = 0;     ///< frames missing between recorded ones or at the end, by their seq
   std::uint64_t skipped = 0;  ///< frames left out by choice, see skip()
   std::uint64_t frame_stats = 0;
   std::uint64_t statuses = 0;
@@ -57,6 +57,8 @@ class RecordingWriter {
 
   /// A frame that arrived and is left out by choice (a lower recording rate): its seq is no gap.
   void skip(const bleed_v1_Frame& sample);
+  /// The session of the last frame had published frames up to this one: those that came no more are gaps.
+  void publishedUntil(std::uint64_t seq);
 
   /// Writes the last chunk, the gaps and the index, and closes the file. Further calls give the first answer.
   ::bleedsim::Status close();

@@ -147,7 +147,7 @@ void Collector::addLedgers() {
   }
 }
 
-// What the file itself cannot show: frames left out by choice, and journal entries that could not be stored.
+// What the messages cannot show: frames left out by choice, lost ones at the end, and journal entries that could not be stored.
 void Collector::applyMetadata(const RecordingReader& reader) {
   const auto record = reader.metadata().find("bleedsim.recording");
   if (record == reader.metadata().end()) return;
@@ -161,6 +161,11 @@ void Collector::applyMetadata(const RecordingReader& reader) {
     }
     out = value;
   };
+  std::uint64_t published_until = 0;
+  number("published_until", published_until);
+  frames_.publishedUntil(last_epoch_.first, published_until);
+  out_.gaps = frames_.missing();
+  out_.gap_ranges = frames_.ranges();
   number("skipped", out_.skipped);
   if (out_.skipped > 0) {
     number("gaps", out_.gaps);

@@ -12,7 +12,7 @@ namespace bleedsim::recording {
 
 struct RecordingSummary {
   std::uint64_t frames = 0;
-  std::uint64_t gaps = 0;     ///< frames that were published between the recorded ones and are missing
+  std::uint64_t gaps = 0;     ///< published frames, between the recorded ones or at the end, that are missing
   std::uint64_t skipped = 0;  ///< frames left out by choice
   std::uint64_t frame_stats = 0;
   std::uint64_t statuses = 0;

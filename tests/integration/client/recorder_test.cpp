@@ -1,0 +1,89 @@
+// The recorder in this process, where the middleware can be taken away from it.
+#include "bleedsim/recorder.h"
+
+#include <array>
+#include <filesystem>
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <optional>
+#include <unistd.h>
+
+#include "service/recording/recording_reader.h"
+#include "tests/integration/client/fake_service.h"
+
+namespace bleedsim::client_test {
+namespace {
+
+using namespace std::chrono_literals;
+using client::Client;
+using client::Recorder;
+
+constexpr std::uint32_t kDomain = 65;
+constexpr auto kLong = 20s;
+
+class RecorderTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string tag = fmt::format("r{}", getpid());
+    auto participant = transport::Participant::create({.domain = kDomain, .tag = tag});
+    ASSERT_TRUE(participant.ok()) << participant.status().message();
+    participant_.emplace(*participant);
+    auto client = Client::create({.domain = kDomain, .tag = tag});
+    ASSERT_TRUE(client.ok()) << client.status().message();
+    client_.emplace(std::move(*client));
+    auto service = FakeService::start(*participant_, "one");
+    ASSERT_TRUE(service.ok());
+    service_ = std::move(*service);
+    service_->publishStatus();
+    service_->publishScene("round_wound");
+    ASSERT_TRUE(client_->find("one", kLong).ok());
+    file_ = std::filesystem::path{testing::TempDir()} / fmt::format("bleedsim_recorder_{}.mcap", getpid());
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  /// Takes the middleware away from the client; the service keeps its own.
+  void deleteClientsParticipant() const {
+    std::array<dds_entity_t, 16> found{};
+    const dds_return_t count = dds_lookup_participant(kDomain, found.data(), found.size());
+    ASSERT_EQ(count, 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (found[i] != participant_->handle()) { ASSERT_EQ(dds_delete(found[i]), DDS_RETCODE_OK); }
+    }
+  }
+
+  std::optional<transport::Participant> participant_;
+  std::optional<Client> client_;
+  std::unique_ptr<FakeService> service_;
+  std::filesystem::path file_;
+};
+
+TEST_F(RecorderTest, AFailureOfTheMiddlewareIsNoFailureOfTheFile) {
+  auto recorder = Recorder::start(*client_, "one", file_.string(), {.frames = 1000});
+  ASSERT_TRUE(recorder.ok()) << recorder.status().message();
+  ASSERT_TRUE(service_->waitFrameReaders(1));
+  ASSERT_TRUE(service_->publishFrame(1).ok());
+  deleteClientsParticipant();
+  EXPECT_TRUE(recorder->waitDone(kLong));
+  const Status closed = recorder->close();
+  EXPECT_EQ(closed.code(), StatusCode::unavailable) << closed.message();
+  EXPECT_THAT(closed.message(), testing::HasSubstr("the middleware failed"));
+  auto reader = recording::RecordingReader::open(file_);
+  ASSERT_TRUE(reader.ok()) << reader.status().message();
+  EXPECT_FALSE(reader->truncated());
+}
+
+TEST_F(RecorderTest, AFullDiskIsAFailureOfTheFile) {
+  const auto recorder = Recorder::start(*client_, "one", "/dev/full", {});
+  EXPECT_EQ(recorder.status().code(), StatusCode::io);
+}
+
+TEST_F(RecorderTest, AMiddlewareThatRefusesReadersIsNoFailureOfTheFile) {
+  deleteClientsParticipant();
+  const auto recorder = Recorder::start(*client_, "one", file_.string(), {});
+  EXPECT_EQ(recorder.status().code(), StatusCode::unavailable) << recorder.status().message();
+  EXPECT_FALSE(std::filesystem::exists(file_));
+}
+
+}  // namespace
+}  // namespace bleedsim::client_test
