@@ -133,31 +133,6 @@ TEST_F(RecordTest, WithoutALimitAnInterruptOrAShutdownCompletesIt) {
   }
 }
 
-TEST_F(RecordTest, AFrameResentAfterTheLastStatusIsRecorded) {
-  const auto service = serve("one");
-  test::ChildProcess recording{record({"--json"}), true};
-  recordFirst(*service, recording);
-  service->step = 20;
-  service->publishStatus(bleed_v1_STATE_STOPPED);
-  ASSERT_TRUE(service->publishStats(2).ok());
-  ASSERT_TRUE(service->publishBareFrame(2).ok());
-  EXPECT_EQ(recording.wait(), 0) << recording.output();
-  EXPECT_EQ(number(lastLine(recording.output()), "frames"), 2.0);
-  EXPECT_EQ(number(lastLine(recording.output()), "gaps"), 0.0);
-  EXPECT_EQ(number(info(), "ml_emitted"), 0.5) << "the ledger of frame 1 and of frame 2, which came after the status";
-}
-
-TEST_F(RecordTest, StatisticsResentAfterTheLimitAreRecorded) {
-  const auto service = serve("one");
-  test::ChildProcess recording{record({"--frames", "2"}), true};
-  recordFirst(*service, recording);
-  ASSERT_TRUE(service->publishBareFrame(2).ok());
-  service->publishStatus();
-  ASSERT_TRUE(service->publishStats(2).ok());
-  EXPECT_EQ(recording.wait(), 0) << recording.output();
-  EXPECT_EQ(number(info(), "ml_emitted"), 0.5);
-}
-
 TEST_F(RecordTest, AFrameThatNeverComesIsAGapAtTheEnd) {
   const auto service = serve("one");
   test::ChildProcess recording{record({"--json"}), true};

@@ -9,7 +9,7 @@
 #include <optional>
 #include <unistd.h>
 
-#include "service/recording/recording_reader.h"
+#include "service/recording/summary.h"
 #include "tests/integration/client/fake_service.h"
 
 namespace bleedsim::client_test {
@@ -52,6 +52,29 @@ class RecorderTest : public testing::Test {
     }
   }
 
+  /// A recording that has one frame.
+  std::optional<Recorder> startWithAFrame(const client::RecordingLimits& limits) {
+    auto recorder = Recorder::start(*client_, "one", file_.string(), limits);
+    EXPECT_TRUE(recorder.ok()) << recorder.status().message();
+    EXPECT_TRUE(service_->waitFrameReaders(1));
+    EXPECT_TRUE(service_->publishFrame(1).ok());
+    EXPECT_TRUE(waitFor(*recorder, [](const client::RecordingProgress& progress) { return progress.frames == 1; }));
+    return std::move(*recorder);
+  }
+  template <class Condition>
+  static bool waitFor(Recorder& recorder, Condition holds) {
+    const auto deadline = std::chrono::steady_clock::now() + kLong;
+    while (!holds(recorder.progress()) && std::chrono::steady_clock::now() < deadline) {
+      if (recorder.waitDone(1ms)) break;
+    }
+    return holds(recorder.progress());
+  }
+  recording::RecordingSummary summary() const {
+    auto reader = recording::RecordingReader::open(file_);
+    EXPECT_TRUE(reader.ok()) << reader.status().message();
+    return *recording::summarize(*reader);
+  }
+
   std::optional<transport::Participant> participant_;
   std::optional<Client> client_;
   std::unique_ptr<FakeService> service_;
@@ -71,6 +94,32 @@ TEST_F(RecorderTest, AFailureOfTheMiddlewareIsNoFailureOfTheFile) {
   auto reader = recording::RecordingReader::open(file_);
   ASSERT_TRUE(reader.ok()) << reader.status().message();
   EXPECT_FALSE(reader->truncated());
+}
+
+TEST_F(RecorderTest, WhatIsResentAfterTheLastStatusIsRecorded) {
+  auto recorder = startWithAFrame({});
+  service_->step = 20;
+  service_->publishStatus(bleed_v1_STATE_STOPPED);
+  ASSERT_TRUE(waitFor(*recorder, [](const client::RecordingProgress& progress) { return progress.session_gone; }));
+  ASSERT_TRUE(service_->publishStats(2).ok());
+  ASSERT_TRUE(service_->publishBareFrame(2).ok());
+  EXPECT_TRUE(recorder->waitDone(kLong));
+  EXPECT_TRUE(recorder->close().ok());
+  EXPECT_EQ(summary().frames, 2U);
+  EXPECT_EQ(summary().frame_stats, 2U);
+  EXPECT_EQ(summary().gaps, 0U);
+}
+
+TEST_F(RecorderTest, StatisticsResentAfterTheLimitAreRecorded) {
+  auto recorder = startWithAFrame({.frames = 2});
+  ASSERT_TRUE(service_->publishBareFrame(2).ok());
+  ASSERT_TRUE(waitFor(*recorder, [](const client::RecordingProgress& progress) { return progress.complete; }));
+  service_->publishStatus();
+  ASSERT_TRUE(service_->publishStats(2).ok());
+  EXPECT_TRUE(recorder->waitDone(kLong));
+  EXPECT_TRUE(recorder->close().ok());
+  EXPECT_EQ(summary().frames, 2U);
+  EXPECT_EQ(summary().frame_stats, 2U);
 }
 
 TEST_F(RecorderTest, AFullDiskIsAFailureOfTheFile) {
