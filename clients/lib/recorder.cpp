@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
+#include <fmt/core.h>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -15,6 +16,7 @@
 #include "clients/lib/recorder_inputs.h"
 #include "clients/lib/recording_end.h"
 #include "clients/lib/recording_window.h"
+#include "service/recording/recording_metadata.h"
 #include "service/recording/recording_writer.h"
 #include "service/transport/clock.h"
 #include "service/transport/receive_buffer.h"
@@ -26,7 +28,7 @@ namespace {
 using transport::Sample;
 
 constexpr std::int64_t kFirstWord = 10'000'000'000;  // a daemon that lives gives its last status to a new reader at once
-// Matches are not waited for but looked at.
+// Matches are not waited for but looked at, and chunks grow old.
 constexpr std::chrono::milliseconds kTick{100};
 
 Status checkLimits(const RecordingLimits& limits) {
@@ -213,6 +215,7 @@ void Recorder::Impl::serve() {
     if (scene_seen_ && !inputs_.framesOpen() && inputs_.journalFlows()) {
       if (Status opened = inputs_.openFrames(); !opened) fail(opened);
     }
+    note(writer_.tick());
     publish(false);
   }
   // Streams do not wait for each other: what one brought while the others were read.
@@ -249,7 +252,9 @@ Result<Recorder> Recorder::start(Client& client, const std::string& session, con
   const std::optional<KnownDaemon> daemon = newestDaemon(client.sessions(), session);
   Result<RecorderInputs> inputs = RecorderInputs::open(client.impl_->participant(), session);
   if (!inputs) return inputs.status();
-  Result<recording::RecordingWriter> writer = recording::RecordingWriter::open(path);
+  recording::WriterOptions options;
+  if (limits.rate_hz) options.notes[recording::kRateNote] = fmt::format("{}", *limits.rate_hz);
+  Result<recording::RecordingWriter> writer = recording::RecordingWriter::open(path, options);
   if (!writer) return writer.status();
   return Recorder{std::make_unique<Impl>(std::move(*inputs), daemon, limits, std::move(*writer))};
 }

@@ -13,7 +13,7 @@ namespace bleedsim::recording {
 struct RecordingSummary {
   std::uint64_t frames = 0;
   std::uint64_t gaps = 0;     ///< published frames, between the recorded ones or at the end, that are missing
-  std::uint64_t skipped = 0;  ///< frames left out by choice
+  std::uint64_t skipped = 0;  ///< frames left out by choice; of a rated recording that was cut off, all that are not there
   std::uint64_t frame_stats = 0;
   std::uint64_t statuses = 0;
   std::uint64_t scenes = 0;
