@@ -23,7 +23,9 @@ constexpr const char* kRecordText =
     "session. 130: Ctrl-C or SIGTERM came before the limit. 3: the session ended before the limit, or was lost. 4: the file\n"
     "could not be written. 1: the middleware of this host failed. The file is closed properly and holds what came in each\n"
     "case; --json tells 'complete' and 'ended_by' (limit, interrupt, session, file, middleware, error). At the end it waits\n"
-    "up to a second for frames, statistics and inputs that are still being resent.\n\n";
+    "up to a second for frames, statistics and inputs that are still being resent. What came reaches the file within a\n"
+    "second: 'bleedctl recover' makes a complete file of one that was cut off by kill -9 or a full disk. A disk that is too\n"
+    "slow ends the recording, never the session.\n\n";
 
 struct RecordArguments {
   std::string path;
@@ -79,7 +81,7 @@ int runRecord(const Context& context, const std::string& path, const client::Rec
   if (terminal) fmt::print(stderr, "\n");
   report(context, path, progress, outcome);
   if (outcome.code == kDone) return kDone;
-  if (outcome.code == kFile) return fail(kFile, outcome.problem);
+  if (outcome.code == kFile) return fail(kFile, fmt::format("{}; 'bleedctl info {}' says what it holds", outcome.problem, path));
   return fail(outcome.code, fmt::format("{}: the recording is incomplete, '{}' holds what came", outcome.problem, path));
 }
 

@@ -150,6 +150,10 @@ Result<RecoverReport> recover(const fs::path& from, const fs::path& to) {
     return ::bleedsim::Status{StatusCode::invalid_argument,
                               fmt::format("'{}' is the file to recover: write into another one", to.string())};
   }
+  if (std::error_code error; fs::exists(to, error) && !fs::is_regular_file(to, error)) {
+    return ::bleedsim::Status{StatusCode::invalid_argument,
+                              fmt::format("'{}' is no regular file: give the name of a file to write", to.string())};
+  }
   if (file->index().chunks.empty()) {
     return ::bleedsim::Status{StatusCode::data_loss, fmt::format("'{}' holds no complete chunk: there is nothing to recover ({})",
                                                                  from.string(), file->index().truncation_reason)};

@@ -19,7 +19,7 @@ struct RecoverReport {
 
 /// Copies every message of every complete chunk of `from` into `to`, with index and summary, and notes there where they come
 /// from. `to` is replaced once all is written, `from` stays as it is. Memory: one chunk and the index. Errors: io, not_found,
-/// unsupported as RecordingReader::open(); data_loss: there is no complete chunk; invalid_argument: `to` is `from`.
+/// unsupported as RecordingReader::open(); data_loss: there is no complete chunk; invalid_argument: `to` is `from`, or no file.
 Result<RecoverReport> recover(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace bleedsim::recording
