@@ -22,9 +22,8 @@ std::string remedyFor(const std::string& path) {
   return fmt::format("'bleedctl recover {} -o OUT' makes a complete file of what it holds", path);
 }
 
-/// Of a file that is a recording.
 int failDamaged(const Status& status, const std::string& path) {
-  if (status.code() != StatusCode::data_loss) return failFile(status);
+  if (status.code() != StatusCode::data_loss || !recording::isRecoverable(path)) return failFile(status);
   return fail(kFile, fmt::format("{}; {}", status.message(), remedyFor(path)));
 }
 
@@ -47,7 +46,7 @@ std::string infoJson(const std::string& path, const recording::RecordingSummary&
 
 int runInfo(const Context& context, const std::string& path) {
   Result<recording::RecordingReader> reader = recording::RecordingReader::open(path);
-  if (!reader) return failFile(reader.status());
+  if (!reader) return failDamaged(reader.status(), path);
   const Result<recording::RecordingSummary> summary = recording::summarize(*reader);
   if (!summary) return failDamaged(summary.status(), path);
   const recording::RecordingSummary& s = *summary;

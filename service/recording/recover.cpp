@@ -141,8 +141,13 @@ std::vector<Record> valuesOf(const std::map<std::uint16_t, Record>& records) {
 
 }  // namespace
 
+bool isRecoverable(const fs::path& from) {
+  const Result<mcap::McapReader> file = mcap::McapReader::open(from, mcap::Damage::tolerate);
+  return file && !file->index().chunks.empty();
+}
+
 Result<RecoverReport> recover(const fs::path& from, const fs::path& to) {
-  Result<mcap::McapReader> file = mcap::McapReader::open(from);
+  Result<mcap::McapReader> file = mcap::McapReader::open(from, mcap::Damage::tolerate);
   if (!file) return file.status();
   Result<std::map<std::uint16_t, Topic>> topics = topicsOf(file->index());
   if (!topics) return topics.status();

@@ -22,4 +22,7 @@ struct RecoverReport {
 /// unsupported as RecordingReader::open(); data_loss: there is no complete chunk; invalid_argument: `to` is `from`, or no file.
 Result<RecoverReport> recover(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// There is something to recover in a file: chunks can be found, though perhaps none of them is whole.
+bool isRecoverable(const std::filesystem::path& from);
+
 }  // namespace bleedsim::recording
