@@ -86,7 +86,7 @@ Result<FileIndex> readIndexAfterMagic(const FileSource& file, Damage damage) {
   const ByteView tail_view{tail};
   const RecordHead head = parseRecordHead(tail_view.first(kRecordHeadBytes));
   if (!isMagic(tail_view.last(kMagic.size())) || head.opcode != Opcode::footer || head.length != kFooterBytes) {
-    return scanIndex(file, "the index at the end is missing, so the recording was not closed", damage);
+    return scanIndex(file, "the index at the end is missing, so the recording was not closed, or is still being written", damage);
   }
   Footer footer;
   if (!parse(tail_view.subspan(kRecordHeadBytes, kFooterBytes), footer))

@@ -13,7 +13,7 @@
 namespace bleedsim::recording {
 
 struct WriteQueue::Impl {
-  Impl(FileSink opened, std::filesystem::path path, std::size_t limit_bytes)
+  Impl(FileSink opened, const std::filesystem::path& path, std::size_t limit_bytes)
       : file{std::move(opened)}, name{path.string()}, limit{limit_bytes}, thread{[this] { serve(); }} {}
 
   void serve();

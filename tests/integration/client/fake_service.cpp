@@ -171,6 +171,15 @@ Status FakeService::publishStats(std::uint64_t seq, std::uint32_t count) {
   return endpoints_->stats.write(stats);
 }
 
+Status FakeService::publishJournal(std::uint64_t number, std::uint64_t at_step) {
+  bleed_v1_Journal journal{};
+  transport::copyUuid(session, journal.session);
+  journal.number = number;
+  journal.step = at_step;
+  journal.body._d = bleed_v1_JOURNAL_INSTRUMENT_END;
+  return endpoints_->journal.write(journal);
+}
+
 Status FakeService::publishMalformedFrame(std::uint64_t seq) {
   bleed_v1_Attribute attributes[2] = {{bleed_v1_SEMANTIC_POSITION, bleed_v1_SCALAR_FLOAT32, 3, 1.0F, 0.0F},
                                       {bleed_v1_SEMANTIC_ID, bleed_v1_SCALAR_UINT32, 1, 1.0F, 0.0F}};

@@ -49,6 +49,8 @@ class FakeService {
   Status publishBareFrame(std::uint64_t seq, std::uint32_t count = 3);
   /// The stats of a frame that is lost on its way, or comes later.
   Status publishStats(std::uint64_t seq, std::uint32_t count = 3);
+  /// An input that acted at this step, by its number in the journal.
+  Status publishJournal(std::uint64_t number, std::uint64_t at_step);
   /// A frame whose payload is one byte short.
   Status publishMalformedFrame(std::uint64_t seq);
 

@@ -122,6 +122,27 @@ TEST_F(RecorderTest, StatisticsResentAfterTheLimitAreRecorded) {
   EXPECT_EQ(summary().frame_stats, 2U);
 }
 
+TEST_F(RecorderTest, InputsOfTheLastFrameAreRecordedThoughTheLimitIsReached) {
+  auto recorder = startWithAFrame({.frames = 2});
+  ASSERT_TRUE(service_->publishFrame(2).ok());
+  ASSERT_TRUE(waitFor(*recorder, [](const client::RecordingProgress& progress) { return progress.complete; }));
+  ASSERT_TRUE(service_->publishJournal(1, 20).ok());
+  service_->publishStatus();
+  EXPECT_TRUE(recorder->waitDone(kLong));
+  EXPECT_TRUE(recorder->close().ok());
+  EXPECT_EQ(summary().journal_entries, 1U);
+}
+
+TEST_F(RecorderTest, ALaterDaemonIsAReplacement) {
+  auto recorder = startWithAFrame({});
+  const auto later = FakeService::start(*participant_, "one");
+  ASSERT_TRUE(later.ok());
+  (*later)->start_stamp_ns = service_->start_stamp_ns + 1;
+  (*later)->publishStatus();
+  EXPECT_TRUE(waitFor(*recorder, [](const client::RecordingProgress& progress) { return progress.replaced; }));
+  EXPECT_FALSE(recorder->progress().session_gone) << "the daemon that is recorded still lives";
+}
+
 TEST_F(RecorderTest, AFullDiskIsAFailureOfTheFile) {
   const auto recorder = Recorder::start(*client_, "one", "/dev/full", {});
   EXPECT_EQ(recorder.status().code(), StatusCode::io);
