@@ -27,6 +27,23 @@ int failDamaged(const Status& status, const std::string& path) {
   return fail(kFile, fmt::format("{}; {}", status.message(), remedyFor(path)));
 }
 
+/// Shows how far it is on a terminal, and ends with a signal.
+class LongWork {
+ public:
+  explicit LongWork(const char* unit) : unit_{unit} { holdStopSignals(); }
+  /// False: a signal came.
+  bool goOn(std::size_t done, std::size_t total) {
+    if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r{} of {} {}\x1b[K{}", done, total, unit_, done == total ? "\n" : "");
+    interrupted_ = interrupted_ || waitForStopSignal(std::chrono::milliseconds{0});
+    return !interrupted_;
+  }
+  bool interrupted() const { return interrupted_; }
+
+ private:
+  const char* unit_;
+  bool interrupted_ = false;
+};
+
 std::string infoJson(const std::string& path, const recording::RecordingSummary& s) {
   JsonObject json;
   json.add("file", path).add("frames", s.frames).add("gaps", s.gaps).add("skipped", s.skipped);
@@ -74,7 +91,10 @@ int runInfo(const Context& context, const std::string& path) {
 }
 
 int runRecover(const Context& context, const std::string& path, const std::string& output) {
-  const Result<recording::RecoverReport> done = recording::recover(path, output);
+  LongWork work{"chunks"};
+  const Result<recording::RecoverReport> done =
+      recording::recover(path, output, [&](std::size_t count, std::size_t total) { return work.goOn(count, total); });
+  if (work.interrupted()) return fail(kInterrupted, done.status().message());
   if (!done) return done.status().code() == StatusCode::invalid_argument ? fail(done.status()) : failFile(done.status());
   const recording::RecordingSummary& s = done->summary;
   if (context.json) {
@@ -96,14 +116,9 @@ int runRecover(const Context& context, const std::string& path, const std::strin
 int runExport(const Context& context, const std::string& path, const std::string& directory) {
   Result<recording::RecordingReader> reader = recording::RecordingReader::open(path);
   if (!reader) return failFile(reader.status());
-  holdStopSignals();
-  bool interrupted = false;
-  const auto progress = [&](std::size_t done, std::size_t total) {
-    if (isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r{} of {} frames\x1b[K{}", done, total, done == total ? "\n" : "");
-    interrupted = interrupted || waitForStopSignal(std::chrono::milliseconds{0});
-    return !interrupted;
-  };
-  const Result<recording::ExportReport> done = recording::exportVtp(*reader, directory, progress);
+  LongWork work{"frames"};
+  const Result<recording::ExportReport> done =
+      recording::exportVtp(*reader, directory, [&](std::size_t count, std::size_t total) { return work.goOn(count, total); });
   if (!done) return failFile(done.status());
   if (context.json) {
     JsonObject json;
@@ -113,7 +128,7 @@ int runExport(const Context& context, const std::string& path, const std::string
     fmt::print("{} frames, {:.1f} MB: open {} in ParaView\n", done->frames, static_cast<double>(done->bytes) * 1e-6,
                done->collection.string());
   }
-  return interrupted ? fail(kInterrupted, "interrupted: the export is incomplete") : kDone;
+  return work.interrupted() ? fail(kInterrupted, "interrupted: the export is incomplete") : kDone;
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ bool isRecoverable(const fs::path& from) {
   return file && !file->index().chunks.empty();
 }
 
-Result<RecoverReport> recover(const fs::path& from, const fs::path& to) {
+Result<RecoverReport> recover(const fs::path& from, const fs::path& to, const RecoverProgress& progress) {
   Result<mcap::McapReader> file = mcap::McapReader::open(from, mcap::Damage::tolerate);
   if (!file) return file.status();
   Result<std::map<std::uint16_t, Topic>> topics = topicsOf(file->index());
@@ -172,8 +172,12 @@ Result<RecoverReport> recover(const fs::path& from, const fs::path& to) {
       mcap::McapWriter::open(part.path(), options, valuesOf(file->index().schemas), valuesOf(file->index().channels));
   if (!writer) return writer.status();
   Copy copy{*file, std::move(*topics), *writer};
-  for (std::size_t i = 0; i < file->index().chunks.size(); ++i) {
+  const std::size_t chunks = file->index().chunks.size();
+  for (std::size_t i = 0; i < chunks; ++i) {
     if (::bleedsim::Status status = copy.chunk(i); !status) return status;
+    if (progress && !progress(i + 1, chunks)) {
+      return ::bleedsim::Status{StatusCode::wrong_state, fmt::format("interrupted: '{}' was not written", to.string())};
+    }
   }
   if (copy.nothingKept()) {
     return ::bleedsim::Status{StatusCode::data_loss,

@@ -191,6 +191,23 @@ TEST_F(RecoverTest, AWholeFileIsCopied) {
   EXPECT_EQ(messagesOf(out_.path()).size(), written_.size());
 }
 
+TEST_F(RecoverTest, GivenUpItLeavesNothing) {
+  writeAll(out_.path(), "an older file");
+  std::size_t calls = 0;
+  const auto give_up = [&](std::size_t done, std::size_t total) {
+    ++calls;
+    EXPECT_EQ(done, calls);
+    EXPECT_EQ(total, ends_.size());
+    return calls < 2;
+  };
+  EXPECT_EQ(recover(whole_.path(), out_.path(), give_up).status().code(), StatusCode::wrong_state);
+  EXPECT_EQ(calls, 2U);
+  EXPECT_EQ(readAll(out_.path()), "an older file");
+  for (const auto& entry : std::filesystem::directory_iterator{out_.path().parent_path()}) {
+    EXPECT_EQ(entry.path().string().find(out_.path().string() + "."), std::string::npos) << entry.path();
+  }
+}
+
 TEST_F(RecoverTest, NeitherTheOldFileNorWhatStandsInTheWayIsHarmed) {
   EXPECT_EQ(recover(whole_.path(), whole_.path()).status().code(), StatusCode::invalid_argument);
   EXPECT_EQ(readAll(whole_.path()), bytes_);
