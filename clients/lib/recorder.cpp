@@ -30,6 +30,7 @@ using transport::Sample;
 constexpr std::int64_t kFirstWord = 10'000'000'000;  // a daemon that lives gives its last status to a new reader at once
 // Matches are not waited for but looked at, and chunks grow old.
 constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kLastTick{10};  // once the daemon ends, its writers are gone at any moment
 
 Status checkLimits(const RecordingLimits& limits) {
   const auto positive = [](const std::optional<double>& value) { return !value || (std::isfinite(*value) && *value > 0.0); };
@@ -209,7 +210,7 @@ void Recorder::Impl::takeAll() {
 void Recorder::Impl::serve() {
   while (failure_.ok() && !end_.over(transport::monotonicNow())) {
     if (stopping_) end_.enough();
-    if (Status waited = inputs_.wait(kTick); !waited) fail(waited);
+    if (Status waited = inputs_.wait(end_.hasStopped() ? kLastTick : kTick); !waited) fail(waited);
     look();
     takeAll();
     if (scene_seen_ && !inputs_.framesOpen() && inputs_.journalFlows()) {
