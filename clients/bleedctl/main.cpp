@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <fmt/core.h>
@@ -5,6 +6,8 @@
 #include "clients/bleedctl/context.h"
 
 int main(int argc, char** argv) {
+  // A limit to the size of files is to be an error with a message, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return bleedsim::bleedctl::runBleedctl(argc, argv);
   } catch (const std::exception& error) {

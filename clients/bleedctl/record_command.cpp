@@ -8,6 +8,7 @@
 #include "bleedsim/recorder.h"
 #include "clients/bleedctl/json.h"
 #include "clients/bleedctl/record_narrator.h"
+#include "clients/bleedctl/record_outcome.h"
 #include "clients/bleedctl/stop_signal.h"
 
 namespace bleedsim::bleedctl {
@@ -19,9 +20,12 @@ constexpr const char* kRecordText =
     "Progress and news go to stderr: also that the session is paused, when nothing is recorded until it resumes. The\n"
     "recording belongs to the daemon it began with; another one that takes the session's name is never recorded.\n"
     "Exit code 0: --duration or --frames was reached; without either, ended by Ctrl-C, SIGTERM or a shutdown of the\n"
-    "session. 130: Ctrl-C or SIGTERM came before the limit. 3: the session ended before the limit, or was lost. The file\n"
-    "is closed properly and holds what came in each case; --json tells 'complete' and 'ended_by' (limit, interrupt,\n"
-    "session, file).\n\n";
+    "session. 130: Ctrl-C or SIGTERM came before the limit. 3: the session ended before the limit, or was lost. 4: the file\n"
+    "could not be written. 1: the middleware of this host failed. The file is closed properly and holds what came in each\n"
+    "case; --json tells 'complete' and 'ended_by' (limit, interrupt, session, file, middleware, error). At the end it waits\n"
+    "up to a second for frames, statistics and inputs that are still being resent. What came reaches the file within a\n"
+    "second: 'bleedctl recover' makes a complete file of one that was cut off by kill -9 or a full disk. A disk that is too\n"
+    "slow ends the recording, never the session.\n\n";
 
 struct RecordArguments {
   std::string path;
@@ -30,31 +34,8 @@ struct RecordArguments {
   double rate_hz = 0.0;
 };
 
-/// How a recording ended, for people and scripts.
-struct Outcome {
-  ExitCode code = kDone;
-  const char* ended_by = "limit";
-  std::string problem;  ///< empty when the recording is all that was asked for
-};
-
-std::string howItEnded(const client::RecordingProgress& progress) {
-  if (progress.state == client::SessionState::stopped) return "ended";
-  return progress.replaced ? "is gone, another daemon has taken its name" : "is gone, its daemon was lost";
-}
-
-Outcome judge(const std::string& session, const client::RecordingProgress& progress, const client::RecordingLimits& limits,
-              const Status& closed) {
-  const bool limited = limits.frames.has_value() || limits.duration_s.has_value();
-  if (!closed.ok()) return {kFile, "file", closed.message()};
-  if (progress.complete) return {};
-  if (progress.session_gone) {
-    if (!limited && progress.state == client::SessionState::stopped) return {kDone, "session", {}};
-    return {kNoSession, "session", fmt::format("session '{}' {}", session, howItEnded(progress))};
-  }
-  return limited ? Outcome{kInterrupted, "interrupt", "interrupted"} : Outcome{kDone, "interrupt", {}};
-}
-
-void report(const Context& context, const std::string& path, const client::RecordingProgress& progress, const Outcome& outcome) {
+void report(const Context& context, const std::string& path, const client::RecordingProgress& progress,
+            const RecordOutcome& outcome) {
   if (context.json) {
     JsonObject json;
     json.add("file", path).add("frames", progress.frames).add("gaps", progress.gaps).add("malformed", progress.malformed);
@@ -90,19 +71,17 @@ int runRecord(const Context& context, const std::string& path, const client::Rec
   if (!session) return fail(session.status());
   holdStopSignals();
   Result<client::Recorder> recorder = client::Recorder::start(*client, session->name, path, limits);
-  if (!recorder) {
-    return recorder.status().code() == StatusCode::io ? fail(kFile, recorder.status().message()) : fail(recorder.status());
-  }
+  if (!recorder) return fail(recordExitCode(recorder.status()), recorder.status().message());
   const bool terminal = isatty(STDERR_FILENO) == 1;
   RecordNarrator narrator{session->name, path, terminal};
   follow(*recorder, narrator, limits);
   const Status closed = recorder->close();
   const client::RecordingProgress progress = recorder->progress();
-  const Outcome outcome = judge(session->name, progress, limits, closed);
+  const RecordOutcome outcome = judgeRecording(session->name, progress, limits, closed);
   if (terminal) fmt::print(stderr, "\n");
   report(context, path, progress, outcome);
   if (outcome.code == kDone) return kDone;
-  if (outcome.code == kFile) return fail(kFile, outcome.problem);
+  if (outcome.code == kFile) return fail(kFile, fmt::format("{}; 'bleedctl info {}' says what it holds", outcome.problem, path));
   return fail(outcome.code, fmt::format("{}: the recording is incomplete, '{}' holds what came", outcome.problem, path));
 }
 

@@ -1,6 +1,5 @@
 #include "bleedsim/recorder.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
@@ -14,7 +13,10 @@
 #include "clients/lib/convert.h"
 #include "clients/lib/frame_decoder.h"
 #include "clients/lib/pinned_daemon.h"
+#include "clients/lib/recorder_inputs.h"
+#include "clients/lib/recording_end.h"
 #include "clients/lib/recording_window.h"
+#include "service/recording/recording_metadata.h"
 #include "service/recording/recording_writer.h"
 #include "service/transport/clock.h"
 #include "service/transport/receive_buffer.h"
@@ -23,18 +25,12 @@
 namespace bleedsim::client {
 namespace {
 
-using transport::Reader;
-using transport::Reading;
 using transport::Sample;
-using transport::Topic;
 
-constexpr std::int64_t kStatsGrace = 1'000'000'000;  // the statistics follow their frame at once
 constexpr std::int64_t kFirstWord = 10'000'000'000;  // a daemon that lives gives its last status to a new reader at once
-
-template <class T>
-Result<Reader<T>> makeReader(const transport::Participant& participant, const std::string& session, Topic topic) {
-  return Reader<T>::create(participant, session, transport::readerQos(topic, Reading::recorder));
-}
+// Matches are not waited for but looked at, and chunks grow old.
+constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kLastTick{10};  // once the daemon ends, its writers are gone at any moment
 
 Status checkLimits(const RecordingLimits& limits) {
   const auto positive = [](const std::optional<double>& value) { return !value || (std::isfinite(*value) && *value > 0.0); };
@@ -44,39 +40,22 @@ Status checkLimits(const RecordingLimits& limits) {
 
 /// The daemon that runs the session, as far as the client has heard of it. A killed one and its successor are both known for a
 /// while.
-std::optional<Uuid> newestDaemon(const std::vector<SessionStatus>& sessions, const std::string& name) {
+std::optional<KnownDaemon> newestDaemon(const std::vector<SessionStatus>& sessions, const std::string& name) {
   const SessionStatus* newest = nullptr;
   for (const SessionStatus& session : sessions) {
     if (session.name == name && (newest == nullptr || session.start_stamp_ns > newest->start_stamp_ns)) newest = &session;
   }
-  return newest == nullptr ? std::optional<Uuid>{} : newest->session;
+  if (newest == nullptr) return {};
+  return KnownDaemon{newest->session, newest->start_stamp_ns};
 }
 
 }  // namespace
 
 class Recorder::Impl {
  public:
-  static constexpr unsigned kSamples = 0;
-  static constexpr unsigned kGuard = 1;
-
-  struct Endpoints {
-    Reader<bleed_v1_Journal> journal;
-    Reader<bleed_v1_Scene> scene;
-    Reader<bleed_v1_Status> status;
-    Reader<bleed_v1_FrameStats> stats;
-    transport::GuardCondition guard;
-    transport::WaitSet waits;
-  };
-
-  Impl(transport::Participant participant, std::string session, const std::optional<Uuid>& daemon, const RecordingLimits& limits,
-       Endpoints endpoints, recording::RecordingWriter writer)
-      : participant_{std::move(participant)},
-        session_{std::move(session)},
-        daemon_{daemon},
-        endpoints_{std::move(endpoints)},
-        writer_{std::move(writer)},
-        window_{limits},
-        thread_{[this] { serve(); }} {}
+  Impl(RecorderInputs inputs, const std::optional<KnownDaemon>& daemon, const RecordingLimits& limits,
+       recording::RecordingWriter writer)
+      : inputs_{std::move(inputs)}, daemon_{daemon}, writer_{std::move(writer)}, window_{limits}, thread_{[this] { serve(); }} {}
   ~Impl() { static_cast<void>(close().ok()); }
 
   RecordingProgress progress() const {
@@ -91,43 +70,40 @@ class Recorder::Impl {
 
  private:
   void serve();
-  template <class T>
-  bool drain(Reader<T>& reader);
+  void look();
+  void takeAll();
   template <class T>
   void store(const Sample<T>& sample);
-  void storeFrame(const bleed_v1_Frame& frame);
   void noteStatus(const Sample<bleed_v1_Status>& sample);
+  void noteFrame(const Sample<bleed_v1_Frame>& sample);
   void note(const Status& appended);
-  void openFrames();
-  bool daemonLost() const;
-  bool complete();
+  void fail(const Status& status) {
+    if (failure_.ok()) failure_ = status;
+  }
   void publish(bool done);
 
-  transport::Participant participant_;
-  std::string session_;
+  // Of the thread, and of close() once that has ended; only the inputs are woken by others.
+  RecorderInputs inputs_;
   PinnedDaemon daemon_;
-  Endpoints endpoints_;
-  std::optional<Reader<bleed_v1_Frame>> frames_;
-  std::mutex closing_;                 // one close() at a time
-  recording::RecordingWriter writer_;  // of the thread, and of close() once that has ended
+  recording::RecordingWriter writer_;
   RecordingWindow window_;
+  RecordingEnd end_;
   Frame checked_;  // reused
   Status failure_;
   transport::BufferWatch buffer_watch_{transport::receiveBufferLimit()};
   std::string buffer_warning_;
   std::uint32_t capacity_ = 0;
-  transport::PublicationHandle publication_ = 0;  // the status writer of our daemon; 0: not heard yet
+  transport::PublicationHandle status_writer_ = 0;  // of our daemon; 0: not heard yet
+  transport::PublicationHandle frame_writer_ = 0;
+  transport::PublicationHandle stats_writer_ = 0;
   SessionState state_ = SessionState::unknown;
   std::string state_text_;
   bool scene_seen_ = false;
-  bool gone_ = false;
-  std::uint64_t last_seq_ = 0;
-  std::uint64_t stats_seq_ = 0;
   std::uint64_t malformed_ = 0;
   std::uint32_t particles_ = 0;
-  std::int64_t full_since_ = 0;
   std::int64_t started_ = transport::monotonicNow();
 
+  std::mutex closing_;        // one close() at a time
   mutable std::mutex mutex_;  // covers progress_ and closed_
   std::condition_variable changed_;
   RecordingProgress progress_;
@@ -137,39 +113,47 @@ class Recorder::Impl {
 };
 
 void Recorder::Impl::note(const Status& appended) {
-  // Samples that cannot be stored are counted by the writer; only a failing disk ends the recording.
-  if (appended.code() == StatusCode::io && failure_.ok()) failure_ = appended;
+  // Samples that cannot be stored are counted by the writer; only a file that cannot be written ends the recording.
+  const StatusCode code = appended.code();
+  if (code == StatusCode::io || code == StatusCode::internal) fail(appended);
 }
 
 template <class T>
 void Recorder::Impl::store(const Sample<T>& sample) {
-  if (!daemon_.owns(transport::toUuid(sample.data->session))) return;
+  const T& data = *sample.data;
+  const Uuid sender = transport::toUuid(data.session);
+  if constexpr (std::is_same_v<T, bleed_v1_Status>) daemon_.started(sender, data.start_stamp_ns);
+  if (!daemon_.owns(sender)) return;
   if constexpr (std::is_same_v<T, bleed_v1_Frame>) {
-    storeFrame(*sample.data);
+    noteFrame(sample);
   } else {
     if constexpr (std::is_same_v<T, bleed_v1_Scene>) {
       scene_seen_ = true;
-      capacity_ = sample.data->capacity;
+      capacity_ = data.capacity;
     }
     if constexpr (std::is_same_v<T, bleed_v1_FrameStats>) {
-      stats_seq_ = sample.data->seq;
-      if (window_.full() && sample.data->seq > last_seq_) return;
+      stats_writer_ = sample.publication;
+      end_.stats(data.seq);
+      if (!end_.wantsStats(data.seq)) return;
     }
     if constexpr (std::is_same_v<T, bleed_v1_Status>) noteStatus(sample);
-    note(writer_.append(*sample.data));
+    note(writer_.append(data));
   }
 }
 
 void Recorder::Impl::noteStatus(const Sample<bleed_v1_Status>& sample) {
   SessionStatus status = fromWire(*sample.data);
-  publication_ = sample.publication;
+  status_writer_ = sample.publication;
   state_ = status.state;
   state_text_ = std::move(status.text);
-  gone_ = gone_ || state_ == SessionState::stopped;
+  end_.status({status.epoch, status.step});
+  if (state_ == SessionState::stopped) end_.stopped();
 }
 
-void Recorder::Impl::storeFrame(const bleed_v1_Frame& frame) {
-  if (window_.full()) return;
+void Recorder::Impl::noteFrame(const Sample<bleed_v1_Frame>& sample) {
+  const bleed_v1_Frame& frame = *sample.data;
+  frame_writer_ = sample.publication;
+  if (!end_.wantsFrames()) return;
   if (!FrameDecoder::decode(frame, checked_).ok()) {
     ++malformed_;
     return;
@@ -178,52 +162,14 @@ void Recorder::Impl::storeFrame(const bleed_v1_Frame& frame) {
     const std::size_t particle_bytes = frame.payload._length / frame.count;
     if (auto warning = buffer_watch_.note(particle_bytes * capacity_)) buffer_warning_ = std::move(*warning);
   }
+  end_.frame(frame.seq, {frame.epoch, frame.step});
   if (!window_.keep(frame.epoch, frame.sim_time_s)) {
     writer_.skip(frame);
     return;
   }
   note(writer_.append(frame));
-  last_seq_ = frame.seq;
   particles_ = frame.count;
-}
-
-template <class T>
-bool Recorder::Impl::drain(Reader<T>& reader) {
-  for (;;) {
-    const Result<std::size_t> taken = reader.take([&](const Sample<T>& sample) {
-      if (sample.data != nullptr) store(sample);
-    });
-    if (!taken) return false;
-    if (*taken < Reader<T>::kMaxBatch) return true;
-  }
-}
-
-void Recorder::Impl::openFrames() {
-  // Frames only once the scene is there and the journal flows: a recording starts with what explains it.
-  if (frames_ || !scene_seen_ || endpoints_.journal.matchedCount() == 0) return;
-  Result<Reader<bleed_v1_Frame>> made = makeReader<bleed_v1_Frame>(participant_, session_, Topic::frame);
-  if (!made) {
-    failure_ = made.status();
-    return;
-  }
-  frames_.emplace(std::move(*made));
-  if (Status attached = endpoints_.waits.attach(*frames_, kSamples); !attached) failure_ = attached;
-}
-
-bool Recorder::Impl::daemonLost() const {
-  if (publication_ == 0) return transport::monotonicNow() - started_ > kFirstWord;
-  // Liveliness tells first, but only that of all daemons of the name together.
-  if (endpoints_.status.aliveCount() == 0) return true;
-  const std::vector<transport::PublicationHandle> writers = endpoints_.status.matchedPublications();
-  return std::find(writers.begin(), writers.end(), publication_) == writers.end();
-}
-
-bool Recorder::Impl::complete() {
-  if (!failure_.ok() || gone_) return true;
-  if (!window_.full()) return false;
-  const std::int64_t now = transport::monotonicNow();
-  if (full_since_ == 0) full_since_ = now;
-  return stats_seq_ >= last_seq_ || now - full_since_ > kStatsGrace;
+  if (window_.full()) end_.enough();
 }
 
 void Recorder::Impl::publish(bool done) {
@@ -238,8 +184,8 @@ void Recorder::Impl::publish(bool done) {
                  .bytes = counts.bytes,
                  .done = done,
                  .complete = window_.full(),
-                 .session_gone = gone_,
-                 .replaced = daemon_.strangerHeard(),
+                 .session_gone = end_.sessionGone(),
+                 .replaced = daemon_.replaced(),
                  .state = state_,
                  .state_text = state_text_,
                  .buffer_warning = buffer_warning_};
@@ -247,24 +193,35 @@ void Recorder::Impl::publish(bool done) {
   changed_.notify_all();
 }
 
-void Recorder::Impl::serve() {
-  bool done = false;
-  while (!done && !stopping_) {
-    // Bounded, since matches are looked at here as well.
-    const Result<transport::WakeUp> woken = endpoints_.waits.wait(std::chrono::milliseconds{100});
-    if (!woken) failure_ = woken.status();
-    const bool lost = daemonLost();  // asked first: what came before the end is still stored
-    bool read = drain(endpoints_.scene) && drain(endpoints_.journal) && drain(endpoints_.status);
-    if (frames_) read = read && drain(*frames_);
-    read = read && drain(endpoints_.stats);
-    if (!read && failure_.ok()) failure_ = {StatusCode::io, "the middleware refused to give samples"};
-    gone_ = gone_ || lost;
-    openFrames();
-    done = complete();
-    publish(done);
+/// What the middleware tells of the daemon's writers. Asked before the samples are taken: what came before the end is stored.
+void Recorder::Impl::look() {
+  if (end_.hasStopped()) {
+    if (inputs_.streamsGone(frame_writer_, stats_writer_)) end_.writersGone();
+    return;
   }
-  // Inputs of the steps up to the last frame may still lie in the reader.
-  drain(endpoints_.journal);
+  const bool silent = status_writer_ == 0 && transport::monotonicNow() - started_ > kFirstWord;
+  if (silent || (status_writer_ != 0 && inputs_.statusLost(status_writer_))) end_.lost();
+}
+
+void Recorder::Impl::takeAll() {
+  if (Status taken = inputs_.take([this](const auto& sample) { store(sample); }); !taken) fail(taken);
+}
+
+void Recorder::Impl::serve() {
+  while (failure_.ok() && !end_.over(transport::monotonicNow())) {
+    if (stopping_) end_.enough();
+    if (Status waited = inputs_.wait(end_.hasStopped() ? kLastTick : kTick); !waited) fail(waited);
+    look();
+    takeAll();
+    if (scene_seen_ && !inputs_.framesOpen() && inputs_.journalFlows()) {
+      if (Status opened = inputs_.openFrames(); !opened) fail(opened);
+    }
+    note(writer_.tick());
+    publish(false);
+  }
+  // Streams do not wait for each other: what one brought while the others were read.
+  takeAll();
+  writer_.publishedUntil(end_.missingUntil());
   publish(true);
 }
 
@@ -275,7 +232,7 @@ Status Recorder::Impl::close() {
     if (closed_) return *closed_;
   }
   stopping_ = true;
-  endpoints_.guard.raise();
+  inputs_.wake();
   if (thread_.joinable()) thread_.join();
   Status closed = writer_.close();
   if (!failure_.ok()) closed = failure_;
@@ -293,30 +250,14 @@ Recorder::~Recorder() = default;
 Result<Recorder> Recorder::start(Client& client, const std::string& session, const std::string& path,
                                  const RecordingLimits& limits) {
   if (Status checked = checkLimits(limits); !checked) return checked;
-  const transport::Participant participant = client.impl_->participant();
-  const std::optional<Uuid> daemon = newestDaemon(client.sessions(), session);
-  auto journal = makeReader<bleed_v1_Journal>(participant, session, Topic::journal);
-  if (!journal) return journal.status();
-  auto scene = makeReader<bleed_v1_Scene>(participant, session, Topic::scene);
-  if (!scene) return scene.status();
-  auto status = makeReader<bleed_v1_Status>(participant, session, Topic::status);
-  if (!status) return status.status();
-  auto stats = makeReader<bleed_v1_FrameStats>(participant, session, Topic::frame_stats);
-  if (!stats) return stats.status();
-  auto guard = transport::GuardCondition::create(participant);
-  if (!guard) return guard.status();
-  auto waits = transport::WaitSet::create(participant);
-  if (!waits) return waits.status();
-  for (const Status& attached :
-       {waits->attach(*journal, Impl::kSamples), waits->attach(*scene, Impl::kSamples), waits->attach(*status, Impl::kSamples),
-        waits->attach(*stats, Impl::kSamples), waits->attach(*guard, Impl::kGuard)}) {
-    if (!attached.ok()) return attached;
-  }
-  Result<recording::RecordingWriter> writer = recording::RecordingWriter::open(path);
+  const std::optional<KnownDaemon> daemon = newestDaemon(client.sessions(), session);
+  Result<RecorderInputs> inputs = RecorderInputs::open(client.impl_->participant(), session);
+  if (!inputs) return inputs.status();
+  recording::WriterOptions options;
+  if (limits.rate_hz) options.notes[recording::kRateNote] = fmt::format("{}", *limits.rate_hz);
+  Result<recording::RecordingWriter> writer = recording::RecordingWriter::open(path, options);
   if (!writer) return writer.status();
-  Impl::Endpoints endpoints{std::move(*journal), std::move(*scene), std::move(*status),
-                            std::move(*stats),   std::move(*guard), std::move(*waits)};
-  return Recorder{std::make_unique<Impl>(participant, session, daemon, limits, std::move(endpoints), std::move(*writer))};
+  return Recorder{std::make_unique<Impl>(std::move(*inputs), daemon, limits, std::move(*writer))};
 }
 
 RecordingProgress Recorder::progress() const { return impl_->progress(); }

@@ -144,6 +144,8 @@ void Publisher::finish() {
   // Deleting a writer that waits for acknowledgements takes a second and may cut the last samples off.
   count(writers_.reply.waitForAcknowledgements(kLastAcknowledgements));
   count(writers_.frame.waitForAcknowledgements(kLastAcknowledgements));
+  count(writers_.stats.waitForAcknowledgements(kLastAcknowledgements));
+  count(writers_.journal.waitForAcknowledgements(kLastAcknowledgements));
   count(writers_.status.waitForAcknowledgements(kLastAcknowledgements));
 }
 

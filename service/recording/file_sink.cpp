@@ -7,8 +7,6 @@
 #include <unistd.h>
 #include <utility>
 
-#include "service/recording/mcap_records.h"
-
 namespace bleedsim::recording {
 namespace {
 
@@ -47,7 +45,6 @@ FileSink::FileSink(FileSink&& other) noexcept
     : path_{std::move(other.path_)},
       descriptor_{std::exchange(other.descriptor_, -1)},
       bytes_{other.bytes_},
-      crc_{other.crc_},
       status_{std::move(other.status_)} {}
 
 FileSink& FileSink::operator=(FileSink&& other) noexcept {
@@ -56,7 +53,6 @@ FileSink& FileSink::operator=(FileSink&& other) noexcept {
     path_ = std::move(other.path_);
     descriptor_ = std::exchange(other.descriptor_, -1);
     bytes_ = other.bytes_;
-    crc_ = other.crc_;
     status_ = std::move(other.status_);
   }
   return *this;
@@ -74,7 +70,6 @@ FileSink::~FileSink() {
 ::bleedsim::Status FileSink::write(std::string_view bytes) {
   if (!status_.ok()) return status_;
   if (descriptor_ < 0) return {StatusCode::wrong_state, fmt::format("'{}' is closed", path_.string())};
-  const std::string_view whole = bytes;
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0) {
@@ -82,9 +77,8 @@ FileSink::~FileSink() {
       return fail(errno, "write to");
     }
     bytes.remove_prefix(static_cast<std::size_t>(written));
+    bytes_ += static_cast<std::uint64_t>(written);
   }
-  bytes_ += whole.size();
-  crc_ = mcap::crc32(crc_, mcap::bytesOf(whole));
   return {};
 }
 

@@ -1,4 +1,4 @@
-// An output file that counts and checksums what goes into it.
+// An output file that counts what goes into it.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,6 @@ class FileSink {
   ::bleedsim::Status closeQuickly();
 
   std::uint64_t bytes() const { return bytes_; }
-  std::uint32_t crc() const { return crc_; }  ///< CRC-32 of everything written
   const ::bleedsim::Status& status() const { return status_; }
 
  private:
@@ -37,7 +36,6 @@ class FileSink {
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::uint64_t bytes_ = 0;
-  std::uint32_t crc_ = 0;
   ::bleedsim::Status status_;
 };
 

@@ -75,38 +75,10 @@ bool isMagic(ByteView bytes) {
   return {};
 }
 
-}  // namespace
-
-::bleedsim::Status readRecord(const FileSource& file, std::uint64_t offset, Opcode opcode, std::uint64_t limit,
-                              std::vector<std::byte>& content) {
-  std::array<std::byte, kRecordHeadBytes> head_bytes{};
-  if (::bleedsim::Status status = file.read(offset, head_bytes); !status) return status;
-  const RecordHead head = parseRecordHead(head_bytes);
-  if (head.opcode != opcode) {
-    return damaged(file, offset,
-                   fmt::format("record 0x{:02x} where 0x{:02x} is expected", static_cast<unsigned>(head.opcode),
-                               static_cast<unsigned>(opcode)));
-  }
-  if (head.length > limit || head.length > file.bytes() - offset - kRecordHeadBytes) {
-    return damaged(file, offset, fmt::format("a record of {} bytes does not fit", head.length));
-  }
-  content.resize(static_cast<std::size_t>(head.length));
-  return file.read(offset + kRecordHeadBytes, content);
-}
-
-Result<FileIndex> readIndex(const FileSource& file) {
+/// Of a file that starts as an MCAP file.
+Result<FileIndex> readIndexAfterMagic(const FileSource& file, Damage damage) {
   constexpr std::size_t kTailBytes = kRecordHeadBytes + kFooterBytes + kMagic.size();
-  std::array<std::byte, kMagic.size()> magic{};
-  if (file.bytes() < magic.size()) {
-    return ::bleedsim::Status{StatusCode::data_loss,
-                              fmt::format("'{}' is no recording: it has {} bytes", file.name(), file.bytes())};
-  }
-  if (::bleedsim::Status status = file.read(0, magic); !status) return status;
-  if (!isMagic(magic)) {
-    return ::bleedsim::Status{StatusCode::data_loss,
-                              fmt::format("'{}' is no recording: it does not start as an MCAP file", file.name())};
-  }
-  if (file.bytes() < magic.size() + kTailBytes) return scanIndex(file, "the file ends after its first bytes");
+  if (file.bytes() < kMagic.size() + kTailBytes) return scanIndex(file, "the file ends after its first bytes", damage);
 
   std::array<std::byte, kTailBytes> tail{};
   const std::uint64_t footer_at = file.bytes() - kTailBytes;
@@ -114,13 +86,13 @@ Result<FileIndex> readIndex(const FileSource& file) {
   const ByteView tail_view{tail};
   const RecordHead head = parseRecordHead(tail_view.first(kRecordHeadBytes));
   if (!isMagic(tail_view.last(kMagic.size())) || head.opcode != Opcode::footer || head.length != kFooterBytes) {
-    return scanIndex(file, "the index at the end is missing, so the recording was not closed");
+    return scanIndex(file, "the index at the end is missing, so the recording was not closed, or is still being written", damage);
   }
   Footer footer;
   if (!parse(tail_view.subspan(kRecordHeadBytes, kFooterBytes), footer))
     return damaged(file, footer_at, "the footer is too short");
-  if (footer.summary_start == 0) return scanIndex(file, "the file was written without an index");
-  if (footer.summary_start < magic.size() || footer.summary_start > footer_at ||
+  if (footer.summary_start == 0) return scanIndex(file, "the file was written without an index", damage);
+  if (footer.summary_start < kMagic.size() || footer.summary_start > footer_at ||
       footer_at - footer.summary_start > kMaxRecordBytes) {
     return damaged(file, footer_at, fmt::format("the footer places the index at byte {}", footer.summary_start));
   }
@@ -147,6 +119,41 @@ Result<FileIndex> readIndex(const FileSource& file) {
     out.metadata[record.name] = std::move(record.entries);
   }
   return out;
+}
+
+}  // namespace
+
+::bleedsim::Status readRecord(const FileSource& file, std::uint64_t offset, Opcode opcode, std::uint64_t limit,
+                              std::vector<std::byte>& content) {
+  std::array<std::byte, kRecordHeadBytes> head_bytes{};
+  if (::bleedsim::Status status = file.read(offset, head_bytes); !status) return status;
+  const RecordHead head = parseRecordHead(head_bytes);
+  if (head.opcode != opcode) {
+    return damaged(file, offset,
+                   fmt::format("record 0x{:02x} where 0x{:02x} is expected", static_cast<unsigned>(head.opcode),
+                               static_cast<unsigned>(opcode)));
+  }
+  if (head.length > limit || head.length > file.bytes() - offset - kRecordHeadBytes) {
+    return damaged(file, offset, fmt::format("a record of {} bytes does not fit", head.length));
+  }
+  content.resize(static_cast<std::size_t>(head.length));
+  return file.read(offset + kRecordHeadBytes, content);
+}
+
+Result<FileIndex> readIndex(const FileSource& file, Damage damage) {
+  std::array<std::byte, kMagic.size()> magic{};
+  if (file.bytes() < magic.size()) {
+    return ::bleedsim::Status{StatusCode::data_loss,
+                              fmt::format("'{}' is no recording: it has {} bytes", file.name(), file.bytes())};
+  }
+  if (::bleedsim::Status status = file.read(0, magic); !status) return status;
+  if (!isMagic(magic)) {
+    return ::bleedsim::Status{StatusCode::data_loss,
+                              fmt::format("'{}' is no recording: it does not start as an MCAP file", file.name())};
+  }
+  Result<FileIndex> index = readIndexAfterMagic(file, damage);
+  if (damage == Damage::refuse || index.status().code() != StatusCode::data_loss) return index;
+  return scanIndex(file, index.status().message(), damage);
 }
 
 }  // namespace bleedsim::recording::mcap

@@ -28,14 +28,19 @@ struct FileIndex {
   std::string truncation_reason;
 };
 
+enum class Damage {
+  refuse,    ///< a damaged index or record is an error
+  tolerate,  ///< a damaged index is replaced by a scan, which ends at a damaged record: the file counts as cut off there
+};
+
 /// Reads the summary of a complete file, or scans one that was cut off. data_loss: damaged, or no MCAP file.
-Result<FileIndex> readIndex(const FileSource& file);
+Result<FileIndex> readIndex(const FileSource& file, Damage damage = Damage::refuse);
 
 /// The head at `offset` and the content of a record of that kind, at most `limit` bytes.
 ::bleedsim::Status readRecord(const FileSource& file, std::uint64_t offset, Opcode opcode, std::uint64_t limit,
                               std::vector<std::byte>& content);
 
 /// Walks over the file's records; used by readIndex() when there is no summary.
-Result<FileIndex> scanIndex(const FileSource& file, std::string reason);
+Result<FileIndex> scanIndex(const FileSource& file, std::string reason, Damage damage);
 
 }  // namespace bleedsim::recording::mcap

@@ -13,10 +13,10 @@ void McapReader::FreeContext::operator()(ZSTD_DCtx_s* context) const { ZSTD_free
 McapReader::McapReader(FileSource file, FileIndex index)
     : file_{std::move(file)}, index_{std::move(index)}, context_{ZSTD_createDCtx()} {}
 
-Result<McapReader> McapReader::open(const std::filesystem::path& path) {
+Result<McapReader> McapReader::open(const std::filesystem::path& path, Damage damage) {
   Result<FileSource> file = FileSource::open(path);
   if (!file) return file.status();
-  Result<FileIndex> index = readIndex(*file);
+  Result<FileIndex> index = readIndex(*file, damage);
   if (!index) return index.status();
   McapReader reader{std::move(*file), std::move(*index)};
   if (reader.context_ == nullptr) return ::bleedsim::Status{StatusCode::internal, "no memory for the zstd decompressor"};

@@ -25,7 +25,7 @@ struct Message {
 class McapReader {
  public:
   /// Errors: as FileSource and readIndex().
-  static Result<McapReader> open(const std::filesystem::path& path);
+  static Result<McapReader> open(const std::filesystem::path& path, Damage damage = Damage::refuse);
 
   McapReader(McapReader&&) noexcept = default;
   McapReader& operator=(McapReader&&) noexcept = default;

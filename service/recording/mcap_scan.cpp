@@ -14,7 +14,7 @@ constexpr std::size_t kChunkHeadRoom = 256;  // the members before a chunk's dat
 
 class Scanner {
  public:
-  explicit Scanner(const FileSource& file) : file_{file} {}
+  Scanner(const FileSource& file, Damage damage) : file_{file}, damage_{damage} {}
 
   ::bleedsim::Status run();
   FileIndex take() { return std::move(index_); }
@@ -31,6 +31,7 @@ class Scanner {
   }
 
   const FileSource& file_;
+  Damage damage_;
   FileIndex index_;
   std::string stop_;
 };
@@ -58,7 +59,11 @@ class Scanner {
       stop_ = fmt::format("the data end at byte {}", at);
       return {};
     }
-    if (::bleedsim::Status status = visit(head, at); !status) return status;
+    if (::bleedsim::Status status = visit(head, at); !status) {
+      if (damage_ == Damage::refuse || status.code() != StatusCode::data_loss) return status;
+      stop_ = status.message();
+      return {};
+    }
     at += kRecordHeadBytes + head.length;
   }
   stop_ = fmt::format("the file ends at byte {}, between two records", at);
@@ -145,8 +150,8 @@ template <class T>
 
 }  // namespace
 
-Result<FileIndex> scanIndex(const FileSource& file, std::string reason) {
-  Scanner scanner{file};
+Result<FileIndex> scanIndex(const FileSource& file, std::string reason, Damage damage) {
+  Scanner scanner{file, damage};
   if (::bleedsim::Status status = scanner.run(); !status) return status;
   FileIndex index = scanner.take();
   index.truncated = true;

@@ -11,7 +11,7 @@ void McapWriter::FreeContext::operator()(ZSTD_CCtx_s* context) const { ZSTD_free
 
 Result<McapWriter> McapWriter::open(const std::filesystem::path& path, const ChunkOptions& options, std::vector<Schema> schemas,
                                     std::vector<Channel> channels) {
-  Result<FileSink> sink = FileSink::open(path);
+  Result<WriteQueue> sink = WriteQueue::open(path, options.queue_bytes);
   if (!sink) return sink.status();
   McapWriter writer{std::move(*sink), options, std::move(schemas), std::move(channels)};
   if (writer.context_ == nullptr) return ::bleedsim::Status{StatusCode::internal, "no memory for the zstd compressor"};
@@ -19,7 +19,7 @@ Result<McapWriter> McapWriter::open(const std::filesystem::path& path, const Chu
   return writer;
 }
 
-McapWriter::McapWriter(FileSink sink, const ChunkOptions& options, std::vector<Schema> schemas, std::vector<Channel> channels)
+McapWriter::McapWriter(WriteQueue sink, const ChunkOptions& options, std::vector<Schema> schemas, std::vector<Channel> channels)
     : sink_{std::move(sink)},
       options_{options},
       schemas_{std::move(schemas)},
@@ -35,12 +35,13 @@ McapWriter::McapWriter(FileSink sink, const ChunkOptions& options, std::vector<S
   appendHeader(buffer_, "", "bleedsim");
   for (const Schema& schema : schemas_) appendRecord(buffer_, schema);
   for (const Channel& channel : channels_) appendRecord(buffer_, channel);
-  return sink_.write(buffer_);
+  ::bleedsim::Status status = sink_.write(buffer_);
+  return status ? sink_.flush() : status;
 }
 
 ::bleedsim::Status McapWriter::write(std::uint16_t channel_id, std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
                                      std::string_view data) {
-  if (!sink_.status().ok()) return sink_.status();
+  if (::bleedsim::Status status = sink_.status(); !status) return status;
   const auto sequence = sequences_.find(channel_id);
   if (sequence == sequences_.end()) {
     return {StatusCode::invalid_argument, fmt::format("channel {} was not declared when the file was opened", channel_id)};
@@ -51,10 +52,13 @@ McapWriter::McapWriter(FileSink sink, const ChunkOptions& options, std::vector<S
                         "particles or attributes",
                         data.size(), kMaxMessageBytes)};
   }
-  if (!chunk_.empty() && (chunk_.size() + data.size() > options_.bytes || log_time_ns - chunk_first_ns_ > options_.span_ns)) {
+  if (!chunk_.empty() && chunk_.size() + data.size() > options_.bytes) {
     if (::bleedsim::Status status = endChunk(); !status) return status;
   }
-  if (chunk_.empty()) chunk_first_ns_ = log_time_ns;
+  if (chunk_.empty()) {
+    chunk_first_ns_ = log_time_ns;
+    chunk_since_ = std::chrono::steady_clock::now();
+  }
   chunk_last_ns_ = log_time_ns;
   MessageIndex& index = indexes_[channel_id];
   index.channel_id = channel_id;
@@ -65,7 +69,15 @@ McapWriter::McapWriter(FileSink sink, const ChunkOptions& options, std::vector<S
   statistics_.last_time_ns = log_time_ns;
   ++statistics_.messages;
   ++statistics_.channel_messages[channel_id];
-  return {};
+  // The message is in: that the disk is too slow is said to the next one.
+  return chunk_.size() >= options_.bytes || chunkIsOld(std::chrono::steady_clock::now()) ? endChunk() : ::bleedsim::Status{};
+}
+
+::bleedsim::Status McapWriter::endOldChunk(std::chrono::steady_clock::time_point now) {
+  if (chunkIsOld(now)) {
+    if (::bleedsim::Status status = endChunk(); !status) return status;
+  }
+  return sink_.status();
 }
 
 ::bleedsim::Status McapWriter::compress() {

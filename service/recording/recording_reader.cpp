@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "service/recording/channel_map.h"
 #include "service/recording/mcap_reader.h"
 
 namespace bleedsim::recording {
@@ -43,7 +44,6 @@ template <class Message>
 struct RecordingReader::Impl {
   explicit Impl(mcap::McapReader reader) : file{std::move(reader)} {}
 
-  ::bleedsim::Status mapChannels();
   ::bleedsim::Status indexFrames();
 
   mcap::McapReader file;
@@ -53,23 +53,6 @@ struct RecordingReader::Impl {
   std::uint64_t position = 0;
   std::optional<std::vector<FramePlace>> frames;
 };
-
-::bleedsim::Status RecordingReader::Impl::mapChannels() {
-  for (const auto& [id, channel] : file.index().channels) {
-    for (const TopicInfo& info : kTopics) {
-      if (channel.topic != info.channel) continue;
-      const auto schema = file.index().schemas.find(channel.schema_id);
-      if (channel.message_encoding != "protobuf" || schema == file.index().schemas.end() || schema->second.name != info.schema) {
-        return {StatusCode::unsupported, fmt::format("channel {} does not hold {} messages", info.channel, info.schema)};
-      }
-      topics[id] = info.topic;
-    }
-  }
-  if (topics.empty() && !file.index().truncated) {
-    return {StatusCode::unsupported, "this MCAP file holds no channels of bleedsim; open a file that 'bleedctl record' wrote"};
-  }
-  return {};
-}
 
 ::bleedsim::Status RecordingReader::Impl::indexFrames() {
   if (frames) return {};
@@ -90,7 +73,9 @@ Result<RecordingReader> RecordingReader::open(const std::filesystem::path& path)
   Result<mcap::McapReader> file = mcap::McapReader::open(path);
   if (!file) return file.status();
   auto impl = std::make_unique<Impl>(std::move(*file));
-  if (::bleedsim::Status status = impl->mapChannels(); !status) return status;
+  Result<std::map<std::uint16_t, Topic>> topics = topicsOf(impl->file.index());
+  if (!topics) return topics.status();
+  impl->topics = std::move(*topics);
   return RecordingReader{std::move(impl)};
 }
 

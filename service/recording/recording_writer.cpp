@@ -7,6 +7,7 @@
 
 #include "service/recording/convert.h"
 #include "service/recording/mcap_writer.h"
+#include "service/recording/recording_metadata.h"
 #include "service/recording/schemas.h"
 #include "service/recording/seq_tracker.h"
 #include "service/recording/text_check.h"
@@ -18,6 +19,8 @@ constexpr std::size_t kMaxNotes = 64;
 constexpr int kMaxCompressionLevel = 19;
 constexpr std::size_t kMinChunkBytes = std::size_t{1} << 10;
 constexpr std::size_t kMaxChunkBytes = std::size_t{64} << 20;
+constexpr std::size_t kMinQueueBytes = std::size_t{64} << 10;
+constexpr std::size_t kMaxQueueBytes = std::size_t{4} << 30;
 
 ::bleedsim::Status check(const WriterOptions& options) {
   if (options.compression_level < 1 || options.compression_level > kMaxCompressionLevel) {
@@ -27,6 +30,11 @@ constexpr std::size_t kMaxChunkBytes = std::size_t{64} << 20;
   if (options.chunk_bytes < kMinChunkBytes || options.chunk_bytes > kMaxChunkBytes) {
     return {StatusCode::invalid_argument,
             fmt::format("a chunk size of {} bytes is not within {} to {}", options.chunk_bytes, kMinChunkBytes, kMaxChunkBytes)};
+  }
+  if (options.chunk_age.count() <= 0) return {StatusCode::invalid_argument, "the age of a chunk has to be above 0"};
+  if (options.queue_bytes < kMinQueueBytes || options.queue_bytes > kMaxQueueBytes) {
+    return {StatusCode::invalid_argument, fmt::format("a queue of {} bytes for the disk is not within {} to {}",
+                                                      options.queue_bytes, kMinQueueBytes, kMaxQueueBytes)};
   }
   if (options.notes.size() > kMaxNotes) {
     return {StatusCode::invalid_argument, fmt::format("{} notes are more than {}", options.notes.size(), kMaxNotes)};
@@ -60,6 +68,8 @@ struct RecordingWriter::Impl {
   std::string bytes;
   std::uint64_t last_time_ns = 0;
   std::map<std::string, std::string> origin;  ///< of the first scene
+  SessionKey last_session;                    ///< of the last frame
+  std::uint64_t published_until = 0;
   bool closed = false;
   ::bleedsim::Status closing;
 };
@@ -85,21 +95,17 @@ template <class Sample, class Message>
 }
 
 ::bleedsim::Status RecordingWriter::Impl::finish() {
-  std::string ranges;
-  for (const auto& [first, last] : frames.ranges()) ranges += fmt::format("{}{}-{}", ranges.empty() ? "" : " ", first, last);
-  const std::string reason = replay.reason();
-  mcap::Metadata record{"bleedsim.recording", origin};
-  record.entries["frames"] = std::to_string(counts.frames);
-  record.entries["gaps"] = std::to_string(counts.gaps);
-  record.entries["gap_ranges"] = ranges;
-  record.entries["skipped"] = std::to_string(counts.skipped);
-  record.entries["refused"] = std::to_string(counts.refused);
-  record.entries["journal_entries"] = std::to_string(counts.journal_entries);
-  record.entries["journal_gaps"] = std::to_string(counts.journal_gaps);
-  record.entries["replayable"] = reason.empty() ? "true" : "false";
-  record.entries["reason"] = reason;
-  ::bleedsim::Status status = writer.write(record);
-  if (status && !options.notes.empty()) status = writer.write(mcap::Metadata{"bleedsim.notes", options.notes});
+  const RecordingFigures figures{.frames = counts.frames,
+                                 .gaps = counts.gaps,
+                                 .gap_ranges = frames.ranges(),
+                                 .published_until = published_until,
+                                 .skipped = counts.skipped,
+                                 .refused = counts.refused,
+                                 .journal_entries = counts.journal_entries,
+                                 .journal_gaps = counts.journal_gaps,
+                                 .not_replayable = replay.reason(),
+                                 .origin = origin};
+  ::bleedsim::Status status = writer.write(toMetadata(figures));
   // Closes the file even after an error, which it then reports again.
   ::bleedsim::Status closed_status = writer.close();
   counts.bytes = writer.bytes();
@@ -108,9 +114,12 @@ template <class Sample, class Message>
 
 Result<RecordingWriter> RecordingWriter::open(const std::filesystem::path& path, const WriterOptions& options) {
   if (::bleedsim::Status status = check(options); !status) return status;
-  const mcap::ChunkOptions chunks{options.compression_level, options.chunk_bytes, options.chunk_span_ns};
+  const mcap::ChunkOptions chunks{options.compression_level, options.chunk_bytes, options.chunk_age, options.queue_bytes};
   Result<mcap::McapWriter> file = mcap::McapWriter::open(path, chunks, recordingSchemas(), recordingChannels());
   if (!file) return file.status();
+  if (!options.notes.empty()) {
+    if (::bleedsim::Status status = file->write(mcap::Metadata{kNotesMetadata, options.notes}); !status) return status;
+  }
   auto impl = std::make_unique<Impl>(std::move(*file));
   impl->options = options;
   impl->counts.bytes = impl->writer.bytes();
@@ -137,7 +146,8 @@ RecordingWriter::~RecordingWriter() {
   ::bleedsim::Status status = impl_->store(Topic::frame, sample, impl_->frame, log_time_ns, published);
   if (status) {
     ++impl_->counts.frames;
-    impl_->frames.add(keyOf(sample.session), sample.epoch, sample.seq);
+    impl_->last_session = keyOf(sample.session);
+    impl_->frames.add(impl_->last_session, sample.epoch, sample.seq);
     impl_->counts.gaps = impl_->frames.missing();
     impl_->replay.addFrame(keyOf(sample.session), sample.epoch);
   }
@@ -186,9 +196,23 @@ RecordingWriter::~RecordingWriter() {
   return status;
 }
 
+::bleedsim::Status RecordingWriter::tick(std::chrono::steady_clock::time_point now) {
+  if (impl_->closed) return {StatusCode::wrong_state, "the recording is closed"};
+  ::bleedsim::Status status = impl_->writer.endOldChunk(now);
+  impl_->counts.bytes = impl_->writer.bytes();
+  return status;
+}
+
 void RecordingWriter::skip(const bleed_v1_Frame& sample) {
   ++impl_->counts.skipped;
   impl_->frames.add(keyOf(sample.session), sample.epoch, sample.seq);
+  impl_->counts.gaps = impl_->frames.missing();
+  impl_->last_session = keyOf(sample.session);
+}
+
+void RecordingWriter::publishedUntil(std::uint64_t seq) {
+  impl_->published_until = std::max(impl_->published_until, seq);
+  impl_->frames.publishedUntil(impl_->last_session, seq);
   impl_->counts.gaps = impl_->frames.missing();
 }
 

@@ -12,13 +12,23 @@ void FrameTracker::add(const SessionKey& session, std::uint32_t epoch, std::uint
   }
   Last& last = found->second;
   if (seq > last.seq) {
-    const std::uint64_t lost = seq - last.seq - 1;
-    missing_ += lost;
-    if (lost > 0 && ranges_.size() < kMaxRanges) ranges_.emplace_back(last.seq + 1, seq - 1);
+    if (seq > last.seq + 1) lose(last.seq + 1, seq - 1);
     last = {epoch, seq};
   } else if (epoch != last.epoch) {
     last = {epoch, seq};
   }
+}
+
+void FrameTracker::publishedUntil(const SessionKey& session, std::uint64_t seq) {
+  const auto found = last_.find(session);
+  if (found == last_.end() || seq <= found->second.seq) return;
+  lose(found->second.seq + 1, seq);
+  found->second.seq = seq;
+}
+
+void FrameTracker::lose(std::uint64_t first, std::uint64_t last) {
+  missing_ += last - first + 1;
+  if (ranges_.size() < kMaxRanges) ranges_.emplace_back(first, last);
 }
 
 void ReplayCheck::addFrame(const SessionKey& session, std::uint32_t epoch) {

@@ -23,6 +23,8 @@ class FrameTracker {
 
   /// Another session, or a seq that falls in a new epoch, starts afresh; a repeated or older seq is no gap.
   void add(const SessionKey& session, std::uint32_t epoch, std::uint64_t seq);
+  /// The session had published frames up to this one: those after its last are missing. A session without frames has no gaps.
+  void publishedUntil(const SessionKey& session, std::uint64_t seq);
 
   std::uint64_t missing() const { return missing_; }
   /// First and last of each run of missing frames, the first kMaxRanges of them.
@@ -33,6 +35,8 @@ class FrameTracker {
     std::uint32_t epoch = 0;
     std::uint64_t seq = 0;
   };
+
+  void lose(std::uint64_t first, std::uint64_t last);
 
   std::map<SessionKey, Last> last_;
   std::uint64_t missing_ = 0;

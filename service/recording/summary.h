@@ -12,8 +12,8 @@ namespace bleedsim::recording {
 
 struct RecordingSummary {
   std::uint64_t frames = 0;
-  std::uint64_t gaps = 0;     ///< frames that were published between the recorded ones and are missing
-  std::uint64_t skipped = 0;  ///< frames left out by choice
+  std::uint64_t gaps = 0;     ///< published frames, between the recorded ones or at the end, that are missing
+  std::uint64_t skipped = 0;  ///< frames left out by choice; of a rated recording that was cut off, all that are not there
   std::uint64_t frame_stats = 0;
   std::uint64_t statuses = 0;
   std::uint64_t scenes = 0;

@@ -104,6 +104,8 @@ void FakeService::publishStatus(std::uint32_t state, const std::string& text) {
   transport::copyUuid(session, status.session);
   name_.copy(status.session_name, sizeof status.session_name - 1);
   status.state = state;
+  status.step = step;
+  status.start_stamp_ns = start_stamp_ns;
   status.heartbeat = ++heartbeat_;
   status.pid = getpid();
   status.real_time_factor = figures.real_time_factor;
@@ -127,6 +129,11 @@ void FakeService::publishScene(const std::string& scene_name) {
 }
 
 Status FakeService::publishFrame(std::uint64_t seq, std::uint32_t count) {
+  if (Status written = publishBareFrame(seq, count); !written) return written;
+  return publishStats(seq, count);
+}
+
+Status FakeService::publishBareFrame(std::uint64_t seq, std::uint32_t count) {
   bleed_v1_Attribute attributes[2] = {{bleed_v1_SEMANTIC_POSITION, bleed_v1_SCALAR_FLOAT32, 3, 1.0F, 0.0F},
                                       {bleed_v1_SEMANTIC_ID, bleed_v1_SCALAR_UINT32, 1, 1.0F, 0.0F}};
   std::vector<std::uint8_t> payload(std::size_t{count} * 16);
@@ -144,8 +151,8 @@ Status FakeService::publishFrame(std::uint64_t seq, std::uint32_t count) {
   frame.attributes = {2, 2, attributes, false};
   frame.payload._buffer = payload.data();
   frame.payload._length = frame.payload._maximum = static_cast<std::uint32_t>(payload.size());
-  if (Status written = endpoints_->frame.write(frame); !written) return written;
-  return publishStats(seq, count);
+  step = frame.step;
+  return endpoints_->frame.write(frame);
 }
 
 Status FakeService::publishStats(std::uint64_t seq, std::uint32_t count) {
@@ -162,6 +169,15 @@ Status FakeService::publishStats(std::uint64_t seq, std::uint32_t count) {
   stats.fault_counters._buffer = counters.data();
   stats.fault_counters._length = stats.fault_counters._maximum = static_cast<std::uint32_t>(counters.size());
   return endpoints_->stats.write(stats);
+}
+
+Status FakeService::publishJournal(std::uint64_t number, std::uint64_t at_step) {
+  bleed_v1_Journal journal{};
+  transport::copyUuid(session, journal.session);
+  journal.number = number;
+  journal.step = at_step;
+  journal.body._d = bleed_v1_JOURNAL_INSTRUMENT_END;
+  return endpoints_->journal.write(journal);
 }
 
 Status FakeService::publishMalformedFrame(std::uint64_t seq) {

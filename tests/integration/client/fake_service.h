@@ -37,14 +37,20 @@ class FakeService {
     std::vector<std::pair<std::string, std::uint64_t>> counters{};
   };
   Figures figures;
-  std::uint32_t capacity = 0;  ///< put into every scene published after
+  std::uint32_t capacity = 0;                              ///< put into every scene published after
+  std::int64_t start_stamp_ns = transport::realtimeNow();  ///< put into every status published after
+  std::uint64_t step = 0;  ///< put into every status published after; that of the last frame, unless a test sets it
 
   void publishStatus(std::uint32_t state = bleed_v1_STATE_RUNNING, const std::string& text = {});
   void publishScene(const std::string& scene_name);
   /// One frame of `count` particles at sim_time_s = seq / 60, and its stats with 0.5 mL for each frame.
   Status publishFrame(std::uint64_t seq, std::uint32_t count = 3);
-  /// The stats of a frame that is lost on its way.
+  /// A frame whose stats are lost on their way, or come later.
+  Status publishBareFrame(std::uint64_t seq, std::uint32_t count = 3);
+  /// The stats of a frame that is lost on its way, or comes later.
   Status publishStats(std::uint64_t seq, std::uint32_t count = 3);
+  /// An input that acted at this step, by its number in the journal.
+  Status publishJournal(std::uint64_t number, std::uint64_t at_step);
   /// A frame whose payload is one byte short.
   Status publishMalformedFrame(std::uint64_t seq);
 

@@ -45,6 +45,7 @@ class RecordTest : public BleedctlTest {
     const auto started = recording.readLine();
     ASSERT_TRUE(started.has_value());
     EXPECT_THAT(*started, HasSubstr("recording session 'one'"));
+    service.publishStatus();  // tells the recording that no inputs of this frame follow
   }
 
   fs::path folder_;
@@ -132,6 +133,18 @@ TEST_F(RecordTest, WithoutALimitAnInterruptOrAShutdownCompletesIt) {
   }
 }
 
+TEST_F(RecordTest, AFrameThatNeverComesIsAGapAtTheEnd) {
+  const auto service = serve("one");
+  test::ChildProcess recording{record({"--json"}), true};
+  recordFirst(*service, recording);
+  ASSERT_TRUE(service->publishStats(3).ok());
+  service->publishStatus(bleed_v1_STATE_STOPPED);
+  EXPECT_EQ(recording.wait(), 0) << recording.output();
+  EXPECT_EQ(number(lastLine(recording.output()), "frames"), 1.0);
+  EXPECT_EQ(number(lastLine(recording.output()), "gaps"), 2.0);
+  EXPECT_EQ(number(info(), "gaps"), 2.0);
+}
+
 class LostSessionTest : public RecordTest, public testing::WithParamInterface<bool> {};
 
 TEST_P(LostSessionTest, IsAFailureWithAndWithoutALimit) {
@@ -178,6 +191,22 @@ TEST_F(RecordTest, EndsWithItsDaemonThoughAnotherOneLives) {
   EXPECT_EQ(recording.wait(), 3) << recording.output();
   EXPECT_THAT(recording.output(), HasSubstr("session 'one' is gone"));
   EXPECT_EQ(number(info(), "frames"), 1.0);
+  EXPECT_EQ(number(info(), "max_particles"), 3.0);
+}
+
+TEST_F(RecordTest, AnEarlierDaemonIsNoReplacement) {
+  auto first = serve("one");
+  test::ChildProcess recording{record(), true};
+  recordFirst(*first, recording, 3);
+  const auto second = FakeService::start(*participant_, "one");
+  ASSERT_TRUE(second.ok());
+  ASSERT_TRUE((*second)->waitFrameReaders(1));
+  (*second)->start_stamp_ns = first->start_stamp_ns - 1;
+  (*second)->publishStatus();
+  ASSERT_TRUE((*second)->publishFrame(1, 7).ok());
+  first.reset();
+  EXPECT_EQ(recording.wait(), 3) << recording.output();
+  EXPECT_THAT(recording.output(), HasSubstr("session 'one' is gone, its daemon was lost"));
   EXPECT_EQ(number(info(), "max_particles"), 3.0);
 }
 

@@ -116,6 +116,27 @@ TEST(RoundTrip, ABadSampleIsLeftOutAndCounted) {
   EXPECT_EQ(writer->append(bleed_v1_Status{}).code(), StatusCode::wrong_state);
 }
 
+TEST(RoundTrip, FramesLostAtTheEndAreInTheFile) {
+  const ScratchFile file{"lost_end.mcap"};
+  auto writer = RecordingWriter::open(file.path());
+  ASSERT_TRUE(writer.ok());
+  bleed_v1_Frame frame{};
+  for (const std::uint64_t seq : {7U, 9U}) {
+    frame.seq = seq;
+    ASSERT_TRUE(writer->append(frame).ok());
+  }
+  writer->publishedUntil(12);
+  EXPECT_EQ(writer->counts().gaps, 4U);
+  ASSERT_TRUE(writer->close().ok());
+  auto reader = RecordingReader::open(file.path());
+  ASSERT_TRUE(reader.ok());
+  const auto summary = summarize(*reader);
+  ASSERT_TRUE(summary.ok());
+  EXPECT_EQ(summary->gaps, 4U);
+  ASSERT_EQ(summary->gap_ranges.size(), 2U);
+  EXPECT_EQ(summary->gap_ranges[1], (std::pair<std::uint64_t, std::uint64_t>{10, 12}));
+}
+
 TEST(RoundTrip, DiskErrorsAreReported) {
   auto writer = RecordingWriter::open("/dev/full");
   ASSERT_FALSE(writer.ok());

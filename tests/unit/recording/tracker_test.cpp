@@ -31,6 +31,20 @@ TEST(FrameTracker, SessionsAndEpochsStartAfreshButSeqRunsOn) {
   EXPECT_EQ(tracker.missing(), 2U);
 }
 
+TEST(FrameTracker, FramesPublishedAfterTheLastOneAreMissing) {
+  FrameTracker tracker;
+  tracker.publishedUntil(kA, 7);
+  EXPECT_EQ(tracker.missing(), 0U) << "none of its frames was ever there";
+  tracker.add(kA, 1, 10);
+  tracker.publishedUntil(kA, 10);
+  tracker.publishedUntil(kA, 3);
+  EXPECT_EQ(tracker.missing(), 0U);
+  tracker.publishedUntil(kA, 12);
+  tracker.publishedUntil(kA, 12);
+  EXPECT_EQ(tracker.missing(), 2U);
+  EXPECT_EQ(tracker.ranges().back(), std::make_pair(std::uint64_t{11}, std::uint64_t{12}));
+}
+
 TEST(ReplayCheck, NeedsSceneAndTheWholeJournal) {
   ReplayCheck check;
   EXPECT_EQ(check.reason(), "it holds no frames");

@@ -25,21 +25,22 @@ struct RecordingProgress {
   std::uint32_t particles = 0;                 ///< of the last frame
   double recorded_s = 0.0;                     ///< simulated, over all epochs
   std::uint64_t bytes = 0;                     ///< in the file so far
-  bool done = false;                           ///< a limit is reached, the session is gone or the file cannot be written
+  bool done = false;                           ///< a limit is reached, the session is gone, the file or the middleware failed
   bool complete = false;                       ///< a limit is reached
   bool session_gone = false;                   ///< `state` is stopped when it said so, else it was lost
-  bool replaced = false;                       ///< another daemon of the same name was heard; nothing of it is recorded
+  bool replaced = false;                       ///< a later daemon of the same name was heard; nothing of it is recorded
   SessionState state = SessionState::unknown;  ///< of the last status; frames come while it is running
   std::string state_text{};                    ///< what the session says about it
   std::string buffer_warning{};                ///< why frames may be lost on this host; empty: nothing speaks for it
 };
 
 /// Move-only, thread-safe. Reads reliably with a deep history on a thread of its own. It belongs to one daemon: when that is
-/// gone, the recording has ended, and another daemon of the same session name never comes into the file.
+/// gone, the recording has ended, and another daemon of the same session name never comes into the file. At the end it waits up
+/// to a second for what is still being resent: the last frame, its statistics and its inputs.
 class Recorder {
  public:
   /// The session has to exist: see Client::find. Of several daemons that the client knows under the name, the one that started
-  /// last is recorded. io: the file cannot be created.
+  /// last is recorded. io: the file cannot be created; unavailable: the middleware refused.
   static Result<Recorder> start(Client& client, const std::string& session, const std::string& path,
                                 const RecordingLimits& limits);
   Recorder(Recorder&&) noexcept;
@@ -50,7 +51,8 @@ class Recorder {
   RecordingProgress progress() const;
   /// Waits until progress().done; false: not yet.
   bool waitDone(std::chrono::nanoseconds timeout);
-  /// Ends the recording, writes the index and closes the file. Further calls give the first answer. io: the disk failed.
+  /// Ends the recording, writes the index and closes the file. Further calls give the first answer. io: the file could not be
+  /// written; unavailable: the middleware failed, the file holds what came until then.
   Status close();
 
  private:

@@ -1,0 +1,117 @@
+// What is left of a recording whose process was killed or whose disk was full, and how `bleedctl recover` makes it whole.
+#include <csignal>
+#include <filesystem>
+#include <gmock/gmock.h>
+
+#include "tests/integration/client/bleedctl_fixture.h"
+#include "tests/integration/client/json_value.h"
+
+namespace bleedsim::client_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class RecordLossTest : public BleedctlTest {
+ protected:
+  void SetUp() override {
+    BleedctlTest::SetUp();
+    folder_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_record_loss_{}", getpid());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  static Json json(std::vector<std::string> arguments) {
+    arguments.emplace_back("--json");
+    const test::Finished finished = test::runProcess(command(std::move(arguments)), false);
+    EXPECT_EQ(finished.code, 0) << finished.output;
+    return parseJson(finished.output);
+  }
+  /// The recording was cut off: `info` says so and what to do, and doing it gives all frames that were there.
+  void checkRecovery() const {
+    const Json cut = json({"info", path("a.mcap")});
+    EXPECT_TRUE(member(cut, "truncated").bool_value());
+    EXPECT_EQ(text(cut, "remedy"), "'bleedctl recover " + path("a.mcap") + " -o OUT' makes a complete file of what it holds");
+    EXPECT_THAT(bleedctl({"info", path("a.mcap")}).output,
+                AllOf(HasSubstr("\ntruncated "), HasSubstr("'bleedctl recover " + path("a.mcap") + " -o OUT'")));
+    EXPECT_GE(number(cut, "frames"), 1.0);
+    const Json recovered = json({"recover", path("a.mcap"), "-o", path("b.mcap")});
+    EXPECT_EQ(number(recovered, "frames"), number(cut, "frames"));
+    const Json whole = json({"info", path("b.mcap")});
+    EXPECT_FALSE(member(whole, "truncated").bool_value());
+    EXPECT_EQ(text(whole, "remedy"), "");
+    EXPECT_EQ(number(whole, "frames"), number(cut, "frames"));
+    EXPECT_EQ(number(whole, "gaps"), number(cut, "gaps"));
+    EXPECT_EQ(text(whole, "scene"), "round_wound");
+    EXPECT_THAT(bleedctl({"info", path("b.mcap")}).output, Not(HasSubstr("truncated")));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(RecordLossTest, AKilledRecordingKeepsWhatCameASecondBefore) {
+  const auto service = serve("one");
+  test::ChildProcess recording{command({"record", "-o", path("a.mcap")}), true};
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  ASSERT_TRUE(service->publishFrame(1).ok());
+  ASSERT_TRUE(recording.readLine().has_value());
+  // Nothing follows the frame: it is written because it is old.
+  const auto deadline = std::chrono::steady_clock::now() + test::kPatience;
+  while (number(json({"info", path("a.mcap")}), "frames") < 1.0) ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+  recording.signal(SIGKILL);
+  ASSERT_EQ(recording.wait(), 128 + SIGKILL);
+  checkRecovery();
+}
+
+TEST_F(RecordLossTest, ARecordingKilledInTheMiddleOfItsFramesIsRecovered) {
+  const auto service = serve("one");
+  test::ChildProcess recording{command({"record", "-o", path("a.mcap")}), true};
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  const std::uintmax_t empty = fs::file_size(path("a.mcap"));
+  for (std::uint64_t seq = 1; fs::file_size(path("a.mcap")) < empty + 500'000; ++seq) {
+    ASSERT_LT(seq, 100'000U) << "the recording does not grow";
+    ASSERT_TRUE(service->publishFrame(seq, 5000).ok());
+  }
+  recording.signal(SIGKILL);
+  ASSERT_EQ(recording.wait(), 128 + SIGKILL);
+  checkRecovery();
+}
+
+TEST_F(RecordLossTest, AFullDiskEndsTheRecordingWithItsReasonAndIsRecovered) {
+  const auto service = serve("one");
+  std::vector<std::string> limited{"/bin/sh", "-c", "ulimit -f 800; exec \"$@\"", "sh"};
+  for (std::string& argument : command({"record", "-o", path("a.mcap"), "--json"})) limited.push_back(std::move(argument));
+  test::ChildProcess recording{limited, true};
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  std::optional<int> code;
+  for (std::uint64_t seq = 1; !code; ++seq) {
+    ASSERT_LT(seq, 100'000U) << "the recording does not end";
+    ASSERT_TRUE(service->publishFrame(seq, 5000).ok());
+    code = recording.wait(std::chrono::milliseconds{1});
+  }
+  EXPECT_EQ(*code, 4) << recording.output();
+  EXPECT_THAT(recording.output(),
+              AllOf(HasSubstr("cannot write to '" + path("a.mcap") + "'"), HasSubstr("free space"),
+                    HasSubstr(R"("ended_by": "file")"), HasSubstr("'bleedctl info " + path("a.mcap") + "' says what it holds")));
+  checkRecovery();
+}
+
+TEST_F(RecordLossTest, WhatCannotBeRecoveredIsNamed) {
+  EXPECT_EQ(bleedctl({"recover", path("none.mcap"), "-o", path("b.mcap")}).code, 4);
+  EXPECT_EQ(bleedctl({"recover", path("none.mcap")}).code, 2);
+  const auto service = serve("one");
+  test::ChildProcess recording{command({"record", "-o", path("a.mcap"), "--frames", "1"}), true};
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  ASSERT_TRUE(service->publishFrame(1).ok());
+  ASSERT_EQ(recording.wait(), 0) << recording.output();
+  const test::Finished same = bleedctl({"recover", path("a.mcap"), "-o", path("a.mcap")});
+  EXPECT_EQ(same.code, 2);
+  EXPECT_THAT(same.output, HasSubstr("is the file to recover"));
+  EXPECT_EQ(number(json({"info", path("a.mcap")}), "frames"), 1.0);
+}
+
+}  // namespace
+}  // namespace bleedsim::client_test
