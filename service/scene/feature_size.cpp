@@ -16,6 +16,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A circle may reach this share of its radius beyond an outline that it touches: coordinates rounded to micrometres make the
 // sides of a slit lean by up to 0.2 mrad.
 constexpr double kLean = 2e-8;
+// A limb may narrow towards its end, each side by up to 0.15 rad, if it begins at a place where within its width there is room
+// for a circle half as wide again. Sides that lean no more make room for 1.3 of it only, as those of a wedge or of an ellipse.
+constexpr double kLimbLean = 0.0112;  // 1 - cos 0.15, of the radius as kLean
+constexpr double kLimbRoom = 1.5;
 // Of the widest circle's radius, and how many squares the search for it looks at: a wound by command must not wait for it.
 constexpr double kPrecision = 1e-3;
 constexpr int kMostSquares = 4000;
@@ -53,7 +57,7 @@ double depthAt(const std::vector<Edge>& edges, const Vec2& point) {
 }
 
 /// The narrowest neck: the shortest way across the inside that is the diameter of a circle inside. So the outline is normal to it
-/// at both ends, and leads away from the circle or along it. Infinite if there is none.
+/// at both ends, and leads away from the circle or along it; but for the beginning of a limb. Infinite if there is none.
 class NeckSearch {
  public:
   explicit NeckSearch(const std::vector<Edge>& edges) : edges_{edges} {}
@@ -77,7 +81,16 @@ class NeckSearch {
     const double way = (b - a).norm();
     if (!(way > 0.0 && way < width_)) return;
     const Vec2 middle = 0.5 * (a + b);
-    if (isClear(i, j, middle, 0.5 * (1.0 - kLean) * way) && depthAt(edges_, middle) > 0.0) width_ = way;
+    if (!isClear(i, j, middle, 0.5 * (1.0 - kLimbLean) * way) || depthAt(edges_, middle) <= 0.0) return;
+    if (isClear(i, j, middle, 0.5 * (1.0 - kLean) * way) || beginsLimb(middle, b - a)) width_ = way;
+  }
+
+  bool beginsLimb(const Vec2& middle, const Vec2& way) const {
+    const Vec2 along{-way.y(), way.x()};
+    for (const double ahead : {-1.0, -0.75, -0.5, 0.5, 0.75, 1.0}) {
+      if (2.0 * depthAt(edges_, middle + ahead * along) >= kLimbRoom * way.norm()) return true;
+    }
+    return false;
   }
 
   /// Between edges side by side, from the middle of where they are: a slit's end may be square.

@@ -121,6 +121,19 @@ TEST(PatchWidth, OfABentSlitIsThatOfItsLegs) {
   EXPECT_NEAR(widthOf(rounded), 0.001, 2e-6) << "coordinates in whole micrometres";
 }
 
+// A limb of 20 on a square of 10, which narrows to its end: its beginning counts. At 0.2 rad on each side it is a
+// part of the whole, whose widest circle counts.
+TEST(PatchWidth, OfALimbIsThatOfItsBeginning) {
+  const auto with_limb = [](double half, double half_end) {
+    return std::vector<Vec2>{{-5, -5}, {5, -5}, {5, -half}, {25, -half_end}, {25, half_end}, {5, half}, {5, 5}, {-5, 5}};
+  };
+  expectWidth(with_limb(0.5, 0.5), 1.0);
+  expectWidth(with_limb(0.5, 0.4), 1.0);
+  expectWidth(with_limb(0.5, 1e-4), 1.0);
+  expectWidth(with_limb(2.0, 1e-4), 4.0);
+  expectWidth(with_limb(4.2, 0.1), 10.0);
+}
+
 // A bow, 1 mm wide along a quarter of a circle of 10 mm, and a crescent, which is 1 mm wide in its middle only.
 TEST(PatchWidth, OfABowAndOfACrescent) {
   constexpr int kCorners = 25;
@@ -170,11 +183,12 @@ class Places {
  public:
   Places(const std::vector<Vec2>& points, double extent, double step)
       : step_{step}, side_{static_cast<int>(2.0 * extent / step)} {
-    for (int k = 0; k < side_ * side_; ++k) {
-      depths_.push_back(depthOf(points, Vec2{(k % side_ + 0.5) * step - extent, (k / side_ + 0.5) * step - extent}));
-    }
+    for (int k = 0; k < side_ * side_; ++k) { depths_.push_back(depthOf(points, placeAt(k % side_, k / side_, step, extent))); }
   }
 
+  static Vec2 placeAt(int column, int row, double step, double extent) {
+    return {(column + 0.5) * step - extent, (row + 0.5) * step - extent};
+  }
   double deepest() const { return *std::max_element(depths_.begin(), depths_.end()); }
 
   /// Connected parts of the places deeper than `depth`, but for those that the lattice alone may have parted from others: whose

@@ -181,11 +181,17 @@ TEST(Coincidence, WhatStandsOutsideStaysWhereItIs) {
   for (const std::uint32_t id : {1u, 2u}) EXPECT_LT((spots.at(id) - spot).norm(), 1.01 * kShift);
 }
 
+/// Place k of a cubic lattice with n places along x and y.
+Vec3 latticePlace(int k, int n) {
+  const int row = k / n;
+  return {static_cast<double>(k % n), static_cast<double>(row % n), static_cast<double>(row / n)};
+}
+
 /// A lattice of n^3 places: every third holds two particles, every twelfth three.
 std::vector<Vec3> crowd(int n) {
   std::vector<Vec3> places;
   for (int k = 0; k < n * n * n; ++k) {
-    const Vec3 place = 0.5 * Vec3{double(k % n), double(k / n % n), double(k / n / n)} - Vec3::Constant(3.0);
+    const Vec3 place = 0.5 * latticePlace(k, n) - Vec3::Constant(3.0);
     places.insert(places.end(), k % 12 == 0 ? 3 : k % 3 == 0 ? 2 : 1, place);
   }
   return places;
@@ -217,8 +223,7 @@ TEST(Coincidence, OneCellLeavesDrivenParticlesAlone) {
 // Pairs are 2 * 10^11: they would take minutes. Half of the places are a heap on one spot, the other half fills a lattice.
 TEST(Coincidence, OneCellOfManyIsSorted) {
   std::vector<Vec3> places(300'000, Vec3::Constant(3.5));
-  for (int k = 0; k < 300'000; ++k)
-    places.push_back(0.1 * Vec3{double(k % 67), double(k / 67 % 67), double(k / 4489)} - Vec3::Constant(3.3));
+  for (int k = 0; k < 300'000; ++k) places.push_back(0.1 * latticePlace(k, 67) - Vec3::Constant(3.3));
   Spots spots{places};
   spots.useOneCell();
   EXPECT_EQ(spots.part(), 300'000u);
