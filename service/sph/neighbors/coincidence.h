@@ -132,20 +132,25 @@ class Coincidence {
   /// Returns how many of the two are free to move.
   std::uint64_t partPair(Particles<Real>& p, std::uint32_t i, std::uint32_t j) const {
     const std::array<Real, 3> direction = partingDirection<Real>(p.id[i], p.id[j], planar_);
-    return shift(p, i, shift_, direction) + shift(p, j, -shift_, direction);
+    const bool both = p.driver[i] == 0 && p.driver[j] == 0;
+    return shift(p, i, shift_, direction, both) + shift(p, j, -shift_, direction, both);
   }
-  std::uint64_t shift(Particles<Real>& p, std::uint32_t i, Real length, const std::array<Real, 3>& direction) const {
+  /// A particle that parts from one that stays turns back at a side where one of two free ones would stop.
+  std::uint64_t shift(Particles<Real>& p, std::uint32_t i, Real length, const std::array<Real, 3>& direction, bool both) const {
     if (p.driver[i] != 0) return 0;
-    p.x[i] = shifted(0, p.x[i], length * direction[0]);
-    p.y[i] = shifted(1, p.y[i], length * direction[1]);
-    p.z[i] = shifted(2, p.z[i], length * direction[2]);
+    p.x[i] = shifted(0, p.x[i], length * direction[0], both);
+    p.y[i] = shifted(1, p.y[i], length * direction[1], both);
+    p.z[i] = shifted(2, p.z[i], length * direction[2], both);
     return 1;
   }
-  Real shifted(std::size_t axis, Real from, Real by) const {
+  Real shifted(std::size_t axis, Real from, Real by, bool both) const {
     const Real to = from + by;
     if (domain_.periodic[axis]) return domain_.wrapped(axis, to);
     // A particle that a throat has just released may stand outside.
-    return std::clamp(to, std::min(from, domain_.lower[axis]), std::max(from, domain_.upper[axis]));
+    const Real lowest = std::min(from, domain_.lower[axis]);
+    const Real highest = std::max(from, domain_.upper[axis]);
+    if (!both && (to < lowest || to > highest)) return from - by;
+    return std::clamp(to, lowest, highest);
   }
 
   Real shift_;  // in support radii

@@ -173,6 +173,21 @@ TEST(Coincidence, NoneLeavesTheDomain) {
   }
 }
 
+TEST(Coincidence, AtASideNoneStaysOnTheSpotOfADrivenParticle) {
+  for (const double x : {-4.0, 4.0}) {
+    for (const double y : {-4.0, 4.0}) {
+      for (const double z : {-4.0, 4.0}) {
+        const Vec3 corner{x, y, z};
+        Spots spots{{corner, corner}};
+        spots.drive(1);
+        EXPECT_EQ(spots.part(), 1u);
+        EXPECT_NEAR((spots.at(2) - corner).norm(), kShift, 1e-14);
+        EXPECT_LE(spots.at(2).cwiseAbs().maxCoeff(), 4.0);
+      }
+    }
+  }
+}
+
 // A throat may reach out of the domain; what it releases there is the next drift's to remove.
 TEST(Coincidence, WhatStandsOutsideStaysWhereItIs) {
   const Vec3 spot{0.0, 0.0, 4.2};
@@ -184,7 +199,8 @@ TEST(Coincidence, WhatStandsOutsideStaysWhereItIs) {
 /// Place k of a cubic lattice with n places along x and y.
 Vec3 latticePlace(int k, int n) {
   const int row = k / n;
-  return {static_cast<double>(k % n), static_cast<double>(row % n), static_cast<double>(row / n)};
+  const int layer = row / n;
+  return {static_cast<double>(k % n), static_cast<double>(row % n), static_cast<double>(layer)};
 }
 
 /// A lattice of n^3 places: every third holds two particles, every twelfth three.
