@@ -2,7 +2,7 @@ option(BLEEDSIM_PASS_BOUNDS "Fail a release build whose pass tables are beyond t
 
 # bleedsim_report_passes(TARGET): after the target is linked, prints for each of its pass tables the instantiations, seconds and
 # memory of the compilation, and bytes of code, and fails beyond the bounds of pass_report.cmake. What this machine cannot measure is
-# left out.
+# left out. The target's property BLEEDSIM_OBJECT_LIST is a file that names its objects, one in a line.
 function(bleedsim_report_passes target)
   set(source "${PROJECT_SOURCE_DIR}/config/cmake/measure_compile.cpp")
   set(launcher "${PROJECT_BINARY_DIR}/measure_compile")
@@ -19,9 +19,12 @@ function(bleedsim_report_passes target)
   if(BLEEDSIM_SANITIZE OR NOT CMAKE_BUILD_TYPE STREQUAL "Release")
     set(bounded OFF) # sanitizers and debug builds blow code up
   endif()
+  set(list "${CMAKE_CURRENT_BINARY_DIR}/${target}_objects.txt")
+  file(GENERATE OUTPUT "${list}" CONTENT "$<JOIN:$<TARGET_OBJECTS:${target}>,\n>\n")
+  set_target_properties(${target} PROPERTIES BLEEDSIM_OBJECT_LIST "${list}")
   add_custom_command(
     TARGET ${target} POST_BUILD
     COMMAND "${CMAKE_COMMAND}" "-DSIZE=${BLEEDSIM_SIZE}" "-DNM=${CMAKE_NM}" -DBOUNDED=${bounded}
-            "-DOBJECTS=$<JOIN:$<TARGET_OBJECTS:${target}>,$<COMMA>>" -P "${PROJECT_SOURCE_DIR}/config/cmake/pass_report.cmake"
+            "-DOBJECT_LIST=${list}" -P "${PROJECT_SOURCE_DIR}/config/cmake/pass_report.cmake"
     VERBATIM)
 endfunction()

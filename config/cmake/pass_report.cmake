@@ -1,7 +1,8 @@
 # One line for each pass table among the objects, and a failure beyond the bounds if BOUNDED:
-#   cmake -DSIZE=size -DNM=nm -DBOUNDED=ON -DOBJECTS="a.o,b.o" -P pass_report.cmake
-# SIZE and NM may be empty or missing; OBJECT.cost is measure_compile's. The seconds' bound, of CPU time, is three times
-# the design's 60 s: a shared machine does not reach it, and a far slower one configures with -DBLEEDSIM_PASS_BOUNDS=OFF.
+#   cmake -DSIZE=size -DNM=nm -DBOUNDED=ON -DOBJECT_LIST=objects.txt -P pass_report.cmake
+# The list has one object in a line. SIZE and NM may be empty or missing; OBJECT.cost is measure_compile's. The seconds' bound, of
+# CPU time, is three times the design's 60 s: a shared machine does not reach it, and a far slower one configures with
+# -DBLEEDSIM_PASS_BOUNDS=OFF.
 cmake_minimum_required(VERSION 3.25)
 foreach(bound IN ITEMS "SETS 128" "SECONDS 180" "KIB 976562" "SOUND_BYTES 2097152" "LITERAL_BYTES 1572864")
   string(REPLACE " " ";" bound "${bound}")
@@ -56,7 +57,7 @@ macro(bound name value most what)
   endif()
 endmacro()
 
-string(REPLACE "," ";" objects "${OBJECTS}")
+file(STRINGS "${OBJECT_LIST}" objects)
 foreach(object IN LISTS objects)
   if(NOT object MATCHES "/passes/([a-z_]+)\\.cpp")
     continue()

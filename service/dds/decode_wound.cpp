@@ -3,8 +3,8 @@
 
 #include "service/dds/bounded_text.h"
 #include "service/dds/decode.h"
-#include "service/dds/units.h"
 #include "service/dds/value_check.h"
+#include "service/status/units.h"
 
 namespace bleedsim::dds {
 namespace {

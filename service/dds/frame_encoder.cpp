@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "service/dds/bounded_text.h"
-#include "service/dds/units.h"
+#include "service/status/units.h"
 
 namespace bleedsim::dds {
 

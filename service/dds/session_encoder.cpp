@@ -6,7 +6,7 @@
 #include "service/dds/command_limits.h"
 #include "service/dds/frame_encoder.h"
 #include "service/dds/overloaded.h"
-#include "service/dds/units.h"
+#include "service/status/units.h"
 #include "service/transport/clock.h"
 
 namespace bleedsim::dds {

@@ -3,12 +3,10 @@
 #include "service/scene/convert_effects.h"
 #include "service/scene/effect_names.h"
 #include "service/scene/fill_defaults.h"
+#include "service/status/units.h"
 
 namespace bleedsim::scene {
 namespace {
-
-constexpr double kCubicMetresPerMillilitre = 1e-6;
-constexpr double kPascalsPerMmHg = 133.322;
 
 sph::Vec3 toVec3(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -55,10 +53,10 @@ sph::PatchShape toPatch(const Wound& wound) {
 
 sph::WoundDrive toDrive(const Wound& wound) {
   if (wound.has_pressure()) {
-    return sph::PressureDriveSettings{.inlet_pressure = wound.pressure().inlet_pressure_mmhg() * kPascalsPerMmHg,
+    return sph::PressureDriveSettings{.inlet_pressure = pascalsFromMmHg(wound.pressure().inlet_pressure_mmhg()),
                                       .discharge_coefficient = wound.pressure().discharge_coefficient()};
   }
-  return sph::FlowDrive{wound.flow_ml_per_s() * kCubicMetresPerMillilitre};
+  return sph::FlowDrive{cubicMetresFromMl(wound.flow_ml_per_s())};
 }
 
 sph::WoundDescription toWound(const Wound& wound) {

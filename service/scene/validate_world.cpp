@@ -1,5 +1,7 @@
 // The solver's own rules, told with the fields of the scene that break them.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <string>
@@ -16,23 +18,35 @@ namespace {
 
 constexpr const char* kAxes = "xyz";
 
-/// The members of a list that can be looked at: without problems of their own, and within the count that the list may have.
-template <class Member>
-struct Sound {
-  google::protobuf::RepeatedPtrField<Member> members;
-  std::vector<int> indices;  ///< in the scene
-};
-
-template <class Member>
-Sound<Member> soundOf(const google::protobuf::RepeatedPtrField<Member>& all, const char* path, int most,
-                      const ProblemList& problems) {
-  Sound<Member> sound;
-  for (int i = 0; i < std::min(all.size(), most); ++i) {
-    if (problems.concerns(fmt::format("{}[{}]", path, i))) continue;
-    *sound.members.Add() = all[i];
-    sound.indices.push_back(i);
+/// Indices of the wounds without problems of their own, within the count that a scene may have.
+std::vector<int> soundWounds(const Scene& scene, const ProblemList& problems) {
+  std::vector<int> sound;
+  for (int i = 0; i < std::min(scene.wounds_size(), kMaxSceneWounds); ++i) {
+    if (!problems.concerns(fmt::format("wounds[{}]", i))) sound.push_back(i);
   }
   return sound;
+}
+
+bool isBox(const Vec3& lower, const Vec3& upper) {
+  const std::array<double, 3> sides{upper.x() - lower.x(), upper.y() - lower.y(), upper.z() - lower.z()};
+  return std::all_of(sides.begin(), sides.end(), [](double side) { return side > 0.0 && std::isfinite(side); });
+}
+
+/// Indices of the blocks that have a size, within the count that a scene may have: each of their values is judged by itself.
+std::vector<int> sizedBlocks(const Scene& scene) {
+  std::vector<int> sized;
+  for (int i = 0; i < std::min(scene.fluid_blocks_size(), kMaxFluidBlocks); ++i) {
+    const FluidBlock& block = scene.fluid_blocks(i);
+    if (block.has_lower_m() && block.has_upper_m() && isBox(block.lower_m(), block.upper_m())) sized.push_back(i);
+  }
+  return sized;
+}
+
+template <class Member>
+std::vector<Member> pick(const std::vector<Member>& all, const std::vector<int>& indices) {
+  std::vector<Member> picked;
+  for (const int i : indices) picked.push_back(all[static_cast<std::size_t>(i)]);
+  return picked;
 }
 
 std::string pointText(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
@@ -124,23 +138,18 @@ bool speedKnown(const Scene& scene, const std::vector<int>& sound_wounds, const 
   return true;
 }
 
-Scene withEffects(Scene usable, const Scene& scene) {
-  *usable.mutable_effects() = scene.effects();
-  usable.set_model(scene.model());
-  return usable;
-}
-
-/// What the model does not have, told beside what is wrong with the numbers of the effects. `blocks`: indices in the scene.
+/// What the model or a planar world does not have, told beside what is wrong with the numbers. `blocks`: indices in the scene.
 void validateModel(const sph::WorldDescription& world, const std::vector<int>& blocks, ProblemList& problems) {
-  const bool literal_told = problems.concerns("literal");
-  for (const auto& find : {sph::literalProblems, sph::planarProblems}) {
-    for (const sph::ModelProblem& problem : find(world)) {
-      const std::string block = problem.block ? fmt::format("fluid_blocks[{}]", blocks[*problem.block]) : std::string{};
-      const std::string path = block + problem.field;
-      if (problems.concerns(path) || (literal_told && path.starts_with("literal."))) continue;
-      problems.add(path, problem.status.message());
-    }
-  }
+  const auto tell = [&](const sph::ModelProblem& problem, const ProblemList* told) {
+    const std::string block = problem.block ? fmt::format("fluid_blocks[{}]", blocks[*problem.block]) : std::string{};
+    const std::string path = block + problem.field;
+    // Every number of `literal` has been looked at already, under a name with its unit.
+    if (told != nullptr && (told->concerns(path) || (told->concerns("literal") && path.starts_with("literal.")))) return;
+    problems.add(path, problem.status.message());
+  };
+  const ProblemList before = problems;  // that of a field must not hide another of the same field found here
+  for (const sph::ModelProblem& problem : sph::literalProblems(world)) tell(problem, &before);
+  for (const sph::ModelProblem& problem : sph::planarProblems(world)) tell(problem, nullptr);
 }
 
 }  // namespace
@@ -150,35 +159,33 @@ void validateWorld(const Scene& scene, std::optional<double> speed_of_sound, Pro
   if (anyConcerned(problems, {"domain.lower_m", "domain.upper_m", "resolution.spacing_m", "resolution.support_ratio"})) {
     return;
   }
-  const Sound<Wound> wounds = soundOf(scene.wounds(), "wounds", kMaxSceneWounds, problems);
-  const Sound<FluidBlock> blocks = soundOf(scene.fluid_blocks(), "fluid_blocks", kMaxFluidBlocks, problems);
+  const std::vector<int> wounds = soundWounds(scene, problems);
+  const std::vector<int> blocks = sizedBlocks(scene);
   const bool effects_sound = !anyConcerned(problems, {"effects", "model", "literal", "resolution.kernel"});
-  Scene usable = scene;
-  *usable.mutable_wounds() = wounds.members;
-  *usable.mutable_fluid_blocks() = blocks.members;
-  if (problems.concerns("tissue")) usable.clear_tissue();
+  sph::WorldDescription world = convertWorld(scene);
+  world.fluid_blocks = pick(world.fluid_blocks, blocks);
+  validateModel(world, blocks, problems);
+  world.wounds = pick(world.wounds, wounds);
   if (!effects_sound) {
-    usable.clear_effects();
-    usable.clear_model();
+    world.effects = {};
+    world.model = sph::Model::sound;
   }
-  const sph::WorldDescription world = convertWorld(usable);
-  validateModel(effects_sound ? world : convertWorld(withEffects(usable, scene)), blocks.indices, problems);
 
   double speed = std::numeric_limits<double>::infinity();  // no wound is too fast
   if (speed_of_sound) {
     speed = *speed_of_sound;
-  } else if (speedKnown(scene, wounds.indices, problems)) {
+  } else if (speedKnown(scene, wounds, problems)) {
     speed = sph::speedOfSound(world);
   }
   for (const sph::WoundProblem& problem : sph::findWoundProblems(world, speed)) {
-    std::visit(TellWound{scene, wounds.indices[problem.wound], wounds.indices, problems}, problem.what);
+    std::visit(TellWound{scene, wounds[problem.wound], wounds, problems}, problem.what);
   }
   if (!effects_sound) return;
   for (std::size_t i = 0; i < world.fluid_blocks.size(); ++i) {
-    if (sph::checkBlockViscosity(world.fluid_blocks[i], world.effects).ok()) continue;
-    problems.add(fmt::format("fluid_blocks[{}].viscosity_pa_s", blocks.indices[i]),
-                 fmt::format("value {} is out of range, allowed more than 0 to {} (Pa s) where platelets or a rheology act",
-                             blocks.members[static_cast<int>(i)].viscosity_pa_s(), kViscosity.upper));
+    const std::string path = fmt::format("fluid_blocks[{}].viscosity_pa_s", blocks[i]);
+    if (problems.concerns(path) || sph::checkBlockViscosity(world.fluid_blocks[i], world.effects).ok()) continue;
+    problems.add(path, fmt::format("value {} is out of range, allowed more than 0 to {} (Pa s) where platelets or a rheology act",
+                                   scene.fluid_blocks(blocks[i]).viscosity_pa_s(), kViscosity.upper));
   }
 }
 

@@ -140,7 +140,7 @@ std::vector<ModelProblem> planarProblems(const WorldDescription& d) {
     if (block.lower.z() != d.fluid_blocks.front().lower.z()) {
       problems.invalidBlock(i, "", "must stand at one height with the first, because a planar world has one layer");
     }
-    if (block.velocity.z() != 0.0) {
+    if (std::abs(block.velocity.z()) > 0.0) {
       problems.invalidBlock(i, ".velocity_m_per_s", "must be in the plane, because a planar world does not move along z");
     }
   }

@@ -57,7 +57,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
             kThroatMargin / description.support_ratio,
             options.threads,
             radiusBounds(description).largest},
-      coincidence_{1.0 / description.support_ratio, description.planar, options.threads},
+      coincidence_{1.0 / description.support_ratio, description.planar, domain_, options.threads},
       passes_{tables.passes,
               pairLayout(description),
               pairConstants<Real>(description, lattice, speed_of_sound_),
@@ -70,7 +70,10 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
       wounds_{description, speed_of_sound_},
       drift_results_(static_cast<std::size_t>(options.threads)),
       kick_results_(static_cast<std::size_t>(options.threads)) {
-  if (options.complete_search) grid_.useOneCell();
+  if (options.complete_search) {
+    grid_.useOneCell();
+    coincidence_.useOneCell(description.capacity);
+  }
   if (description.effects.gravity) {
     const Vec3& g = description.effects.gravity->acceleration;
     gravity_ = {static_cast<Real>(g.x()), static_cast<Real>(g.y()), static_cast<Real>(g.z())};
@@ -439,7 +442,7 @@ MemoryUse WorldCore<Real>::memory() const {
   use.particles = particles_.bytes() + sorted_.bytes();
   use.passes = passes_.bytes();
   use.lists = passes_.listBytes();
-  use.grid = grid_.bytes();
+  use.grid = grid_.bytes() + coincidence_.bytes();
   use.tissue = walls_.bytes();
   if (shear_rate_) use.effects += shear_rate_->bytes();
   if (implicit_viscosity_) use.effects += implicit_viscosity_->bytes();

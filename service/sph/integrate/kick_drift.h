@@ -7,17 +7,11 @@
 #include <cstdint>
 
 #include "service/sph/neighbors/cell_grid.h"
+#include "service/sph/neighbors/domain_box.h"
 #include "service/sph/particles.h"
 #include "service/sph/wound/wound_set.h"
 
 namespace bleedsim::sph {
-
-/// The domain in support radii.
-template <class Real>
-struct DomainBox {
-  std::array<Real, 3> lower{}, upper{};
-  std::array<bool, 3> periodic{};
-};
 
 /// What one share of the opening kick and drift found.
 template <class Real>
@@ -55,9 +49,7 @@ DriftResult<Real> kickAndDrift(Particles<Real>& p, const Real* acceleration, Rea
         Real& x = *position[k];
         x += velocity[k] * dt_per_h;
         if (domain.periodic[k]) {
-          const Real length = domain.upper[k] - domain.lower[k];
-          if (x < domain.lower[k]) x += length;
-          if (x >= domain.upper[k]) x -= length;
+          x = domain.wrapped(k, x);
         } else {
           inside = inside && x >= domain.lower[k] && x <= domain.upper[k];
         }

@@ -1,14 +1,22 @@
 #include "service/sph/wound/orifice.h"
 
 #include <cmath>
+#include <string>
 
 #include "service/sph/wound/text.h"
+#include "service/status/quantity_limits.h"
+#include "service/status/units.h"
 
 namespace bleedsim::sph {
 namespace {
 
-constexpr double kPascalPerMmHg = 133.322;
-constexpr double kMlPerCubicMetre = 1e6;
+/// invalid_argument unless `value` is in the range, whose unit is `unit` of the value's own.
+Status checkRange(const char* name, double value, const Range& range, double unit) {
+  if (value >= range.lower * unit && value <= range.upper * unit) return {};  // false for NaN
+  const std::string space = range.unit.empty() ? "" : " ";
+  return {StatusCode::invalid_argument, textOf("wound ", name, " is ", value / unit, space, range.unit, "; allowed are ",
+                                               range.lower, " to ", range.upper, space, range.unit)};
+}
 
 /// For a person to type back: three digits, rounded the way that is accepted.
 double roundedDown(double value) {
@@ -35,20 +43,11 @@ double driveFlow(const WoundDrive& drive, double area, double rest_density) {
 }
 
 Status checkDrive(const WoundDrive& drive) {
-  const auto invalid = [](const auto&... parts) { return Status{StatusCode::invalid_argument, textOf(parts...)}; };
-  if (const auto* flow = std::get_if<FlowDrive>(&drive)) {
-    if (std::isfinite(flow->flow) && flow->flow >= 0.0) return {};
-    return invalid("wound flow is ", flow->flow * kMlPerCubicMetre, " mL/s; it must be finite and at least 0");
-  }
+  if (const auto* flow = std::get_if<FlowDrive>(&drive)) return checkRange("flow", flow->flow, kFlow, kCubicMetresPerMl);
   const auto& pressure = std::get<PressureDriveSettings>(drive);
-  if (!std::isfinite(pressure.inlet_pressure) || pressure.inlet_pressure < 0.0) {
-    return invalid("wound inlet pressure is ", pressure.inlet_pressure / kPascalPerMmHg,
-                   " mmHg; it must be finite and at least 0");
-  }
-  if (!(pressure.discharge_coefficient > 0.0 && pressure.discharge_coefficient <= 1.0)) {
-    return invalid("wound discharge coefficient is ", pressure.discharge_coefficient, "; it must be above 0 and at most 1");
-  }
-  return {};
+  if (Status status = checkRange("inlet pressure", pressure.inlet_pressure, kInletPressure, kPascalsPerMmHg); !status)
+    return status;
+  return checkRange("discharge coefficient", pressure.discharge_coefficient, kDischargeCoefficient, 1.0);
 }
 
 std::optional<SpeedExcess> speedExcess(const ColumnSpeed& column, const WoundDrive& drive) {
@@ -56,8 +55,8 @@ std::optional<SpeedExcess> speedExcess(const ColumnSpeed& column, const WoundDri
   if (column.speed <= column.limit * (1.0 + 1e-9)) return std::nullopt;
   const double ratio = column.limit / column.speed;
   const auto* flow = std::get_if<FlowDrive>(&drive);
-  const double most = flow != nullptr ? flow->flow * ratio * kMlPerCubicMetre
-                                      : std::get<PressureDriveSettings>(drive).inlet_pressure * ratio * ratio / kPascalPerMmHg;
+  const double most = flow != nullptr ? mlFromCubicMetres(flow->flow * ratio)
+                                      : mmHgFromPascals(std::get<PressureDriveSettings>(drive).inlet_pressure * ratio * ratio);
   return SpeedExcess{column, roundedDown(most), roundedUp(column.speed)};
 }
 

@@ -14,7 +14,7 @@ double orificeSpeed(double pressure_drop, double discharge_coefficient, double r
 /// The flow that a drive makes through `area` m^2, m^3/s.
 double driveFlow(const WoundDrive& drive, double area, double rest_density);
 
-/// invalid_argument unless: flow finite, >= 0; inlet pressure finite, >= 0; discharge coefficient in (0, 1].
+/// invalid_argument unless flow, inlet pressure and discharge coefficient are in the ranges that scenes and requests have.
 Status checkDrive(const WoundDrive& drive);
 
 struct ColumnSpeed {

@@ -158,6 +158,22 @@ TEST_F(WoundTest, KeepsRoomForTheRepliesOfWhatWaits) {
   EXPECT_EQ(simulation_->world().wounds().size(), 64U);
 }
 
+TEST_F(WoundTest, WhatReplacesTheWorldIsRefusedWhileOneWaits) {
+  startScene("no tension");
+  push(disc(0.0005));
+  push(dds::ResetSession{});
+  push(dds::LoadScene{"second"});
+  push(dds::SetEffect{"repulsion", true, ""});
+  tick();
+  for (int i = 0; i < 3; ++i) {
+    const dds::Reply refused = reply();
+    EXPECT_EQ(refused.code, dds::ReplyCode::state);
+    EXPECT_THAT(refused.reason, HasSubstr("surface tension is being switched on for a wound: send this again"));
+  }
+  EXPECT_EQ(awaited().key.seq, 1U);
+  EXPECT_EQ(simulation_->world().wounds().size(), 1U);
+}
+
 TEST_F(WoundTest, WaitsForAnEffectThatIsBeingSwitched) {
   startScene("no tension");
   push(dds::SetEffect{"repulsion", true, ""});

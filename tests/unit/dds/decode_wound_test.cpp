@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "service/dds/decode.h"
-#include "service/dds/units.h"
+#include "service/status/units.h"
 #include "tests/unit/dds/samples.h"
 
 namespace bleedsim::dds {

@@ -71,7 +71,7 @@ TEST(ParseScene, ConvertsTissueWoundsAndBlocks) {
   EXPECT_DOUBLE_EQ(std::get<sph::FlowDrive>(world.wounds[0].drive).flow, 2e-6);
   EXPECT_EQ(world.wounds[1].tangent, sph::Vec3(1, 0, 0));
   EXPECT_EQ(std::get<sph::EllipsePatch>(world.wounds[1].shape).semi_axis_v, 0.001);
-  EXPECT_DOUBLE_EQ(std::get<sph::PressureDriveSettings>(world.wounds[1].drive).inlet_pressure, 133.322);
+  EXPECT_DOUBLE_EQ(std::get<sph::PressureDriveSettings>(world.wounds[1].drive).inlet_pressure, 133.322387415);
   EXPECT_EQ(std::get<sph::PressureDriveSettings>(world.wounds[1].drive).discharge_coefficient, 0.7);
   EXPECT_EQ(std::get<sph::PolygonPatch>(world.wounds[2].shape).points.at(2), sph::Vec2(0, 0.004));
   EXPECT_EQ(std::get<sph::PolylinePatch>(world.wounds[3].shape).width, 0.0015);

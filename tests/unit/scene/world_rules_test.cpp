@@ -121,6 +121,39 @@ TEST(WorldRules, BlocksThatTheEffectsCannotWorkWithAreNamed) {
       ElementsAre(AllOf(StartsWith("fluid_blocks[0].viscosity_pa_s: "), HasSubstr("allowed more than 0 to 1000 (Pa s)"))));
 }
 
+/// A planar domain, one particle of 1 mm high.
+std::string planarWith(const std::string& rest, const std::string& effects = "pressure {} viscosity {}") {
+  return replaced(sceneWith(rest, effects), "capacity", "planar: true capacity");
+}
+
+TEST(WorldRules, NoProblemOfABlockHidesAnother) {
+  const std::string flat = "fluid_blocks { lower_m {} upper_m { x: 0.01 y: 0.01 z: 0.001 } }\n";
+  const std::string second =
+      "fluid_blocks { lower_m { x: 0.02 z: 0.002 } upper_m { x: 0.03 y: 0.01 z: 0.004 } velocity_m_per_s { z: 200 } jitter: 7 "
+      "viscosity_pa_s: 0 }\n";
+  EXPECT_THAT(problemsOf(planarWith(flat)), IsEmpty());
+  EXPECT_THAT(problemsOf(planarWith(flat + second)),
+              testing::UnorderedElementsAre(StartsWith("fluid_blocks[1].jitter: value 7"),
+                                            StartsWith("fluid_blocks[1].velocity_m_per_s: value 200"),
+                                            StartsWith("fluid_blocks[1]: must be one particle high"),
+                                            StartsWith("fluid_blocks[1]: must stand at one height with the first"),
+                                            StartsWith("fluid_blocks[1].velocity_m_per_s: must be in the plane")));
+  EXPECT_THAT(problemsOf(sceneWith(second, "pressure {} viscosity { casson {} }")),
+              testing::UnorderedElementsAre(StartsWith("fluid_blocks[0].jitter: value 7"),
+                                            StartsWith("fluid_blocks[0].velocity_m_per_s: value 200"),
+                                            StartsWith("fluid_blocks[0].viscosity_pa_s: value 0")));
+}
+
+TEST(WorldRules, WhatAPlanarWorldLacksIsToldBesideWrongNumbersOfIt) {
+  const std::string text = planarWith(disc(0.0, -1.0) + "tissue { plane { normal { z: 1 } } slip: 7 }\n",
+                                      "pressure {} viscosity {} platelets { fresh: 7 }");
+  EXPECT_THAT(problemsOf(text),
+              testing::UnorderedElementsAre(
+                  StartsWith("effects.platelets.fresh: value 7"), StartsWith("effects.platelets: not in"),
+                  StartsWith("tissue[0].slip: value 7"), StartsWith("tissue: not in a planar world"),
+                  StartsWith("wounds[0].flow_ml_per_s: value -1"), StartsWith("wounds: not in a planar world")));
+}
+
 TEST(WorldRules, AWorldIsMadeOfWhatTheyAccept) {
   const Result<SceneDescription> scene = parseScene(kFullScene);
   ASSERT_TRUE(scene.ok()) << scene.status().message();

@@ -3,32 +3,12 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-#include "tests/support/scenes.h"
+#include "tests/unit/sph/stirred_pool.h"
 
 namespace bleedsim::sph {
 namespace {
 
-/// A pool on tissue that a wound feeds and a tool stirs.
-WorldDescription pool() {
-  WorldDescription scene = test::woundOnPlane(0.003, 3e-6);
-  FluidBlock block;
-  block.lower = {-0.012, -0.012, 0.0};
-  block.upper = {0.012, 0.012, 0.008};
-  block.jitter = 0.1;
-  scene.fluid_blocks.push_back(block);
-  scene.effects.applied_force.emplace();
-  return scene;
-}
-
-void stir(World& world) {
-  SetForce force;
-  force.key = 1;
-  force.position = {0.0, 0.0, 0.006};
-  force.radius = 0.004;
-  force.force = {0.002, 0.0, 0.0};
-  force.until = 0.05;
-  ASSERT_TRUE(world.apply(force).ok());
-}
+WorldDescription pool() { return poolOf(0.012, 0.008, 0.1); }
 
 void step(World& world, int count) {
   for (int i = 0; i < count; ++i) ASSERT_TRUE(world.step(1.0).ok());
@@ -62,7 +42,7 @@ TEST_P(Adopt, AWorldThatTakesOverStepsOnLikeItsTwin) {
   const auto twin = test::makeWorld(pool(), GetParam());
   const auto old = test::makeWorld(pool(), GetParam());
   for (World* world : {twin.get(), old.get()}) {
-    stir(*world);
+    stir(*world, 0.05);
     step(*world, 30);
     UpdateWound faster;
     faster.wound_id = 1;

@@ -1,9 +1,9 @@
 # pass_report.cmake: a line for every table; every bound fails the report by itself, none where the bounds are off; what this machine
 # cannot measure is left out.
 # measure_compile: notes the cost, keeps it where ccache had the object, and ends as the compiler did.
-#   cmake -DREPORT=... -DSIZE=... -DNM=... -DLAUNCHER=... -DOBJECTS="a.o,b.o" -P
+#   cmake -DREPORT=... -DSIZE=... -DNM=... -DLAUNCHER=... -DOBJECT_LIST=objects.txt -P
 function(report expected_to_fail wanted)
-  execute_process(COMMAND "${CMAKE_COMMAND}" "-DOBJECTS=${OBJECTS}" ${ARGN} -P "${REPORT}" RESULT_VARIABLE failed
+  execute_process(COMMAND "${CMAKE_COMMAND}" "-DOBJECT_LIST=${OBJECT_LIST}" ${ARGN} -P "${REPORT}" RESULT_VARIABLE failed
                   OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(failed AND NOT expected_to_fail)
     message(FATAL_ERROR "the report fails with ${ARGN}: ${output}")
@@ -29,11 +29,14 @@ if(SIZE)
   report(TRUE "literal passes: [0-9]+ bytes of code, at most 1000 are allowed" "-DSIZE=${SIZE}" -DBOUNDED=ON -DMOST_LITERAL_BYTES=1000)
 endif()
 
-# What measure_compile noted, beside objects that only have the name of one.
-set(folder "${CMAKE_CURRENT_BINARY_DIR}/pass_report_test/passes")
+# What measure_compile noted, beside objects that only have the name of one, in a folder with an unusual name.
+set(folder "${CMAKE_CURRENT_BINARY_DIR}/pass_report_test, of some/passes")
 file(WRITE "${folder}/passes_slow.cpp.o" "no object")
 file(WRITE "${folder}/passes_slow.cpp.o.cost" "181.5 976563 compiled\n")
-set(OBJECTS "${folder}/passes_slow.cpp.o")
+file(WRITE "${folder}/passes_other.cpp.o" "no object")
+set(OBJECT_LIST "${folder}/objects.txt")
+file(WRITE "${OBJECT_LIST}" "${folder}/passes_slow.cpp.o\n${folder}/passes_other.cpp.o\n")
+report(FALSE "passes_slow: ;passes_other: " -DSIZE= -DNM= -DBOUNDED=OFF)
 report(FALSE "181.5 s of CPU and 953 MiB to compile .compiled." "-DSIZE=${SIZE}" "-DNM=${NM}" -DBOUNDED=OFF)
 report(TRUE "181.5 seconds of CPU time, at most 180;976563 KiB to compile, at most 976562" "-DSIZE=${SIZE}" "-DNM=${NM}" -DBOUNDED=ON)
 file(WRITE "${folder}/passes_slow.cpp.o.cost" "- - cached\n")

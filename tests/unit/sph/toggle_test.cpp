@@ -10,6 +10,7 @@
 #include "service/sph/effects/literal_list.h"
 #include "tests/stability/sph/measure.h"
 #include "tests/unit/sph/frame_differences.h"
+#include "tests/unit/sph/stirred_pool.h"
 
 namespace bleedsim::sph {
 namespace {
@@ -35,29 +36,14 @@ std::vector<Toggle> toggles(const Wanted& wanted) {
   return all;
 }
 
-/// A pool on tissue that moves at 0.1 m/s.
+/// A pool that moves at 0.1 m/s, without a wound.
 WorldDescription pool(Model model) {
-  WorldDescription scene = test::woundOnPlane(0.003, 3e-6);
+  WorldDescription scene = poolOf(0.006, 0.006, 0.03);
   scene.model = model;
   scene.wounds.clear();
   scene.capacity = 2000;
-  FluidBlock block;
-  block.lower = {-0.006, -0.006, 0.0};
-  block.upper = {0.006, 0.006, 0.006};
-  block.jitter = 0.03;
-  block.velocity = {0.1, 0.0, 0.0};
-  scene.fluid_blocks.push_back(block);
-  scene.effects.applied_force.emplace();
+  scene.fluid_blocks.front().velocity = {0.1, 0.0, 0.0};
   return scene;
-}
-
-void stir(World& world) {
-  SetForce force;
-  force.key = 1;
-  force.position = {0.0, 0.0, 0.004};
-  force.radius = 0.003;
-  force.force = {0.002, 0.0, 0.0};
-  ASSERT_TRUE(world.apply(force).ok());
 }
 
 /// Kinetic energy of the difference of two worlds' velocities, as a part of the twin's kinetic energy.

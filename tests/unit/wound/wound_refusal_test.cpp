@@ -50,7 +50,7 @@ std::vector<Spoiled> spoiledWounds() {
       {"design_speed_m_per_s of at least", [](WoundDescription& w) { w.drive = FlowDrive{1e-3}; }},
       {"inlet pressure at most",
        [](WoundDescription& w) {
-         w.drive = PressureDriveSettings{1e6, 0.61};
+         w.drive = PressureDriveSettings{1e5, 0.61};
        }},
       {"overlaps wound 1",
        [](WoundDescription& w) {
