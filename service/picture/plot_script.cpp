@@ -206,6 +206,7 @@ std::string scriptOf(const BarPlot& plot, const std::string& name, const std::st
       "set style fill solid 0.9 noborder\n"
       "set boxwidth 0.92 relative\n";
   script += joined("set xrange [-0.6:", number(static_cast<double>(plot.categories.size()) - 0.4), "]\n");
+  if (slanted) script += "set rmargin 12\n";  // the last label begins under its bar
   script += joined("set xtics ", slanted ? "rotate by -25 left " : "", "(", tics, ")\n");
   const std::string csv = gnuplotString(name + ".csv");
   for (std::size_t i = 0; i < plot.series.size(); ++i) {

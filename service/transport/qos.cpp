@@ -66,7 +66,8 @@ EndpointQos readerQos(Topic topic, Reading reading) {
     case Topic::instrument:
       return {.depth = kSmallHistory};
     case Topic::request:
-      return {.depth = 64};
+      // All clients share this history: a shallow one lets a burst of one push out the others' requests.
+      return {.depth = 1024};
     case Topic::reply:
       return {.depth = kSmallHistory};
     case Topic::journal:

@@ -46,7 +46,7 @@ TEST(ReaderQos, FollowsTheTable) {
   EXPECT_GE(readerQos(Topic::frame, Reading::recorder).depth, 60);
   EXPECT_LE(readerQos(Topic::frame, Reading::recorder).depth, kMaxFrameDepth);
   EXPECT_EQ(readerQos(Topic::instrument).depth, 1024);
-  EXPECT_EQ(readerQos(Topic::request).depth, 64);
+  EXPECT_EQ(readerQos(Topic::request).depth, 1024);
   EXPECT_EQ(readerQos(Topic::reply).depth, 1024);
   EXPECT_EQ(readerQos(Topic::journal).depth, 65536);
   EXPECT_TRUE(readerQos(Topic::journal).transient_local);
