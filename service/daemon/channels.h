@@ -7,6 +7,7 @@
 #include "service/daemon/command_queue.h"
 #include "service/daemon/frame_mailbox.h"
 #include "service/daemon/journal.h"
+#include "service/daemon/pulse.h"
 #include "service/daemon/reply_cache.h"
 #include "service/daemon/service_counters.h"
 #include "service/daemon/status_board.h"
@@ -21,8 +22,8 @@ struct Channels {
 
   /// Wound commands that may wait for surface tension at once.
   static constexpr std::size_t kMaxWaitingWounds = 64;
-  /// Of these, the intake leaves to the simulation: one for the request at hand, one for the load or the switch that may end at any
-  /// time, and those of the wounds that wait.
+  /// Of these, the intake leaves to the simulation: one for the request at hand, one for the load or the switch that may end at
+  /// any time, and those of the wounds that wait.
   static constexpr std::size_t kRepliesOfSimulation = 2 + kMaxWaitingWounds;
 
   CommandQueue commands;                             ///< intake -> simulation
@@ -32,7 +33,9 @@ struct Channels {
   FrameMailbox frames;                               ///< simulation -> publisher
   StatusBoard board;                                 ///< simulation -> publisher, intake
   ServiceCounters counters;
-  Wakeup publisher;  ///< the publisher waits here
+  Wakeup publisher;        ///< the publisher waits here
+  Pulse simulation_pulse;  ///< beats with every tick
+  Pulse publisher_pulse;   ///< beats with every round
 };
 
 }  // namespace bleedsim::daemon
