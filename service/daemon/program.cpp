@@ -13,9 +13,14 @@ namespace {
 void logStart(const ServiceOptions& options, const Service& service, const scene::SceneDescription& scene,
               std::string_view simd) {
   const dds::SessionIdentity& identity = service.identity();
-  spdlog::info("bleedd {} runs session '{}' ({}) in domain {} on {}", identity.version, identity.name,
-               transport::toString(identity.uuid), options.participant.domain,
-               options.participant.interface.empty() ? "loopback" : options.participant.interface);
+  spdlog::info("bleedd {} runs session '{}' ({}) in domain {}", identity.version, identity.name,
+               transport::toString(identity.uuid), options.participant.domain);
+  if (const auto config = transport::chooseConfig(options.participant)) {
+    spdlog::info("DDS uses {}", transport::describe(*config));
+    if (config->kind == transport::ConfigKind::user && !options.participant.interface.empty()) {
+      spdlog::warn("--interface {} is not used: CYCLONEDDS_URI replaces it", options.participant.interface);
+    }
+  }
   spdlog::info("scene '{}', capacity {} particles, SIMD target {}", scene.name, scene.world.capacity, simd);
   for (const std::string& warning : scene.warnings) spdlog::warn("{}", warning);
 }

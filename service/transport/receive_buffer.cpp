@@ -20,8 +20,9 @@ std::optional<std::string> BufferWatch::note(std::size_t frame_bytes) {
   if (limit_ == 0 || granted >= needed) return {};
   std::string remedy;
   if (granted < kReceiveBufferBytes) {
-    remedy = fmt::format("sysctl -w net.core.rmem_max={} on the hosts that receive frames (config/systemd/60-bleedsim.conf keeps it)",
-                         kReceiveBufferBytes);
+    remedy =
+        fmt::format("sysctl -w net.core.rmem_max={} on the hosts that receive frames (config/systemd/60-bleedsim.conf keeps it)",
+                    kReceiveBufferBytes);
   }
   if (needed > kReceiveBufferBytes) {
     remedy += fmt::format("{}a smaller capacity or fewer attributes: no more than {} kB are asked for",
