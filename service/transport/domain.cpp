@@ -1,6 +1,7 @@
 #include "service/transport/domain.h"
 
 #include <dds/dds.h>
+#include <dds/version.h>
 #include <fmt/core.h>
 #include <map>
 #include <mutex>
@@ -33,6 +34,8 @@ DomainRegistry& registry() {
 }
 
 }  // namespace
+
+const char* middlewareVersion() { return DDS_VERSION; }
 
 Result<std::shared_ptr<DomainShare>> joinDomain(DomainOptions options) {
   if (options.domain > kMaxDomain) {

@@ -11,6 +11,9 @@ namespace bleedsim::transport {
 
 inline constexpr std::uint32_t kMaxDomain = 230;  // above, the UDP ports of the domain leave the valid range
 
+/// Of the middleware, as "0.10.2".
+const char* middlewareVersion();
+
 /// A share in a configured domain; the domain goes with its last share.
 class DomainShare;
 

@@ -37,7 +37,7 @@ class FaultTest : public ServiceTest {
     service_ = std::move(*service);
     thread_ = std::thread{[this] { ended_ = service_->run(); }};
     probe_.emplace(domain(), "fault");
-    probe_->frame();
+    probe_->frame([](const FrameHead& frame) { return frame.count > 0; });
     faults_ = true;
     faulted_ = waitFor(kFaulted);
   }

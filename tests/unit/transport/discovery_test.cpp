@@ -16,8 +16,11 @@ using testing::ElementsAre;
 
 constexpr std::uint32_t kDomain = 63;
 
+/// Alone in the domain, also when other tests run beside.
+Result<Participant> joinAlone() { return Participant::create({.domain = kDomain, .tag = "o" + std::to_string(getpid())}); }
+
 TEST(DomainObserver, SeesParticipantsWritersAndReadersOfThisProcess) {
-  const auto participant = Participant::create({.domain = kDomain, .tag = "observed"});
+  const auto participant = joinAlone();
   ASSERT_TRUE(participant) << participant.status().message();
   const auto observer = DomainObserver::create(*participant);
   ASSERT_TRUE(observer) << observer.status().message();
@@ -46,7 +49,7 @@ TEST(DomainObserver, SeesParticipantsWritersAndReadersOfThisProcess) {
 }
 
 TEST(DomainObserver, ForgetsWhatIsGone) {
-  const auto participant = Participant::create({.domain = kDomain, .tag = "observed"});
+  const auto participant = joinAlone();
   ASSERT_TRUE(participant);
   const auto observer = DomainObserver::create(*participant);
   ASSERT_TRUE(observer);
