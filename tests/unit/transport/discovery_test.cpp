@@ -1,7 +1,7 @@
 // What DDS's discovery tells of a domain.
 #include "service/transport/discovery.h"
 
-#include <algorithm>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@ using testing::ElementsAre;
 constexpr std::uint32_t kDomain = 63;
 
 /// Alone in the domain, also when other tests run beside.
-Result<Participant> joinAlone() { return Participant::create({.domain = kDomain, .tag = "o" + std::to_string(getpid())}); }
+Result<Participant> joinAlone() { return Participant::create({.domain = kDomain, .tag = fmt::format("o{}", getpid())}); }
 
 TEST(DomainObserver, SeesParticipantsWritersAndReadersOfThisProcess) {
   const auto participant = joinAlone();
