@@ -1,8 +1,11 @@
 // doctor: what is wrong on this host and domain, and what to do.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <fmt/core.h>
+#include <map>
+#include <string>
 
 #include "clients/bleedctl/doctor.h"
 #include "clients/bleedctl/json.h"
@@ -43,12 +46,20 @@ std::string jsonText(const DoctorFacts& facts, const std::vector<Finding>& findi
     one.add("vendor", transport::vendorName(member.vendor)).add("process", member.process).add("host", member.host);
     members.raw(one.add("pid", member.pid).text());
   }
+  std::map<std::string, std::array<std::uint64_t, 2>> topics;  // writers and readers
+  for (const transport::DomainEndpoint& endpoint : facts.others.endpoints) ++topics[endpoint.topic][endpoint.writer ? 0 : 1];
+  JsonObject topics_json;
+  for (const auto& [topic, counts] : topics) {
+    JsonObject one;
+    topics_json.raw(topic, one.add("writers", counts[0]).add("readers", counts[1]).text());
+  }
   JsonObject json;
   json.add("host", facts.host).add("domain", facts.domain).add("version", facts.version).add("dds_version", facts.dds_version);
   json.add("dds_config", facts.config ? transport::describe(*facts.config) : std::string{});
   json.add("receive_buffer_limit_bytes", std::uint64_t{facts.receive_limit});
   if (facts.clock) json.add("clock_synchronised", facts.clock->synchronised);
   json.raw("interfaces", interfaces.text()).raw("members", members.text()).raw("sessions", sessions.text());
+  json.raw("topics", topics_json.text());
   return json.raw("findings", found.text()).add("problems", std::uint64_t{problems}).text();
 }
 

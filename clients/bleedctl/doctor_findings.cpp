@@ -169,8 +169,17 @@ void findMembers(const DoctorFacts& facts, Area area) {
                 "bleedsim was tested with Cyclone DDS only");
     }
   }
-  area.ok(own.empty() ? std::string{"nobody else takes part"} : fmt::format("takes part: {}", fmt::join(own, ", ")));
+  if (facts.others.members.empty()) area.ok("nobody else takes part");
+  if (!own.empty()) area.ok(fmt::format("takes part: {}", fmt::join(own, ", ")));
+  std::size_t writers = 0;
+  for (const transport::DomainEndpoint& endpoint : facts.others.endpoints) writers += endpoint.writer ? 1 : 0;
+  if (!facts.others.members.empty()) {
+    area.ok(fmt::format("they have {} writers and {} readers", writers, facts.others.endpoints.size() - writers));
+  }
+}
 
+/// Partitions of our topics that no session has.
+void findWaiting(const DoctorFacts& facts, Area area) {
   std::set<std::string> awaited;
   for (const transport::DomainEndpoint& endpoint : facts.others.endpoints) {
     if (!endpoint.topic.starts_with("bleed/v")) continue;
@@ -290,6 +299,7 @@ std::vector<Finding> diagnose(const DoctorFacts& facts) {
   findTime(facts, {findings, "time"});
   if (facts.domain_problem.empty()) {
     findMembers(facts, {findings, "domain"});
+    findWaiting(facts, {findings, "domain"});
     findSessions(facts, {findings, "sessions"});
   }
   return findings;

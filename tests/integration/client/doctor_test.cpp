@@ -68,6 +68,9 @@ TEST_F(DoctorTest, FindsNothingWrongWithAHealthySession) {
   EXPECT_GT(number(sessions.values(0), "round_trip_s"), 0.0);
   // Both programs read the same clock.
   EXPECT_LT(std::abs(number(sessions.values(0), "clock_ahead_s")), 0.1);
+  const Json& frame_topic = member(member(json, "topics"), "bleed/v1/frame");
+  EXPECT_EQ(number(frame_topic, "writers"), 1.0);
+  EXPECT_EQ(number(frame_topic, "readers"), 0.0) << "the doctor itself does not count";
   const auto& members = member(json, "members").list_value().values();
   const auto is_daemon = [&](const Json& one) {
     return text(one, "process") == "bleedd" && number(one, "pid") == running->process().pid();

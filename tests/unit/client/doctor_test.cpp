@@ -165,6 +165,7 @@ TEST_F(DoctorTest, NotesOtherVendors) {
 }
 
 TEST_F(DoctorTest, NotesWhoeverWaitsForASessionThatDoesNotRun) {
+  facts_.others.members.resize(1);
   facts_.others.endpoints = {{{}, true, true, "bleed/v1/request", {"theatre"}},
                              {{}, true, true, "bleed/v1/request", {"theater"}},
                              {{}, false, true, "bleed/v1/status", {"*"}},
