@@ -174,7 +174,7 @@ void findMembers(const DoctorFacts& facts, Area area) {
   std::size_t writers = 0;
   for (const transport::DomainEndpoint& endpoint : facts.others.endpoints) writers += endpoint.writer ? 1 : 0;
   if (!facts.others.members.empty()) {
-    area.ok(fmt::format("they have {} writers and {} readers", writers, facts.others.endpoints.size() - writers));
+    area.ok(fmt::format("their writers: {}, their readers: {}", writers, facts.others.endpoints.size() - writers));
   }
 }
 

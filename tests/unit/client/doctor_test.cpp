@@ -165,7 +165,6 @@ TEST_F(DoctorTest, NotesOtherVendors) {
 }
 
 TEST_F(DoctorTest, NotesWhoeverWaitsForASessionThatDoesNotRun) {
-  facts_.others.members.resize(1);
   facts_.others.endpoints = {{{}, true, true, "bleed/v1/request", {"theatre"}},
                              {{}, true, true, "bleed/v1/request", {"theater"}},
                              {{}, false, true, "bleed/v1/status", {"*"}},
@@ -173,6 +172,15 @@ TEST_F(DoctorTest, NotesWhoeverWaitsForASessionThatDoesNotRun) {
   EXPECT_EQ(
       notes(facts_, kDomain),
       "somebody waits for session 'theater', which does not run here -> start bleedd --session theater, or correct the name\n");
+}
+
+TEST_F(DoctorTest, CountsTheWritersAndReadersOfWhoeverTakesPart) {
+  EXPECT_THAT(found(facts_, Severity::ok, kDomain), HasSubstr("nobody else takes part"));
+  facts_.others.members.push_back({{}, transport::kOwnVendor, "here", "bleedd", 7});
+  facts_.others.endpoints = {{{}, true, true, "bleed/v1/frame", {"theatre"}},
+                             {{}, true, true, "bleed/v1/status", {"theatre"}},
+                             {{}, false, true, "bleed/v1/request", {"theatre"}}};
+  EXPECT_THAT(found(facts_, Severity::ok, kDomain), HasSubstr("their writers: 2, their readers: 1"));
 }
 
 TEST_F(DoctorTest, CountsTheReadersOfFrames) {
