@@ -1,5 +1,4 @@
 // What "cmake --install" with the component "daemon" lays down: the unit, the kernel setting, scenes and configurations.
-#include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
 #include <fstream>
@@ -16,9 +15,7 @@ namespace bleedsim::config_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AllOf;
 using testing::Contains;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 class InstalledServiceTest : public testing::Test {

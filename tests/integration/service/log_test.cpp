@@ -1,5 +1,6 @@
 // bleedd's log file, and the tool that rotates it.
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -66,6 +67,7 @@ TEST_F(DaemonLogTest, ALevelQuietsIt) {
 }
 
 TEST_F(DaemonLogTest, SighupWithoutAFileIsAnEndAsOfAClosedTerminal) {
+  unsetenv("NOTIFY_SOCKET");
   test::ChildProcess daemon{daemonCommand("terminal")};
   Probe probe{domain(), "terminal"};
   probe.frame();
