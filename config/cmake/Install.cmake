@@ -1,5 +1,5 @@
-# Two components. "client": what a front end links (static libraries, headers, CMake package). "programs": bleedd, bleedctl and
-# the scenes. cmake --install build --prefix DIR [--component client]
+# Two components. "client": what a front end links (static libraries, headers, CMake package). "daemon": bleedd, bleedctl, scenes,
+# the systemd unit, the kernel setting and configurations of Cyclone DDS. cmake --install build --prefix DIR [--component client]
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -26,6 +26,18 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/bleedsimConfigVersion.cm
 install(FILES "${PROJECT_BINARY_DIR}/bleedsimConfig.cmake" "${PROJECT_BINARY_DIR}/bleedsimConfigVersion.cmake"
         DESTINATION "${BLEEDSIM_INSTALL_CMAKE}" COMPONENT client)
 
-install(TARGETS bleedd bleedctl RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/config/scenes" DESTINATION "${CMAKE_INSTALL_DATADIR}/bleedsim" COMPONENT programs
+install(TARGETS bleedd bleedctl RUNTIME DESTINATION bin COMPONENT daemon)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/config/scenes" DESTINATION share/bleedsim COMPONENT daemon
         FILES_MATCHING PATTERN "*.textproto")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/config/dds" DESTINATION share/bleedsim COMPONENT daemon FILES_MATCHING PATTERN "*.xml")
+install(FILES "${PROJECT_SOURCE_DIR}/config/systemd/session.conf.example" DESTINATION share/bleedsim COMPONENT daemon)
+# systemd looks for both below /usr and /usr/local.
+install(FILES "${PROJECT_SOURCE_DIR}/config/systemd/60-bleedsim.conf" DESTINATION lib/sysctl.d COMPONENT daemon)
+# A unit holds absolute paths, and only the installation knows its prefix.
+install(CODE "
+  set(BLEEDSIM_PREFIX \"\${CMAKE_INSTALL_PREFIX}\")
+  set(unit \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/systemd/system/bleedd@.service\")
+  message(STATUS \"Installing: \${unit}\")
+  configure_file(\"${PROJECT_SOURCE_DIR}/config/systemd/bleedd@.service.in\" \"\${unit}\" @ONLY)
+  list(APPEND CMAKE_INSTALL_MANIFEST_FILES \"\${CMAKE_INSTALL_PREFIX}/lib/systemd/system/bleedd@.service\")
+" COMPONENT daemon)

@@ -8,6 +8,7 @@
 #include "service/daemon/command_queue.h"
 #include "service/daemon/frame_mailbox.h"
 #include "service/daemon/journal.h"
+#include "service/daemon/pulse.h"
 #include "service/daemon/reply_cache.h"
 #include "service/daemon/service_counters.h"
 #include "service/daemon/status_board.h"
@@ -33,8 +34,10 @@ struct Channels {
   FrameMailbox frames;                               ///< simulation -> publisher
   StatusBoard board;                                 ///< simulation -> publisher, intake
   ServiceCounters counters;
-  ClientLedger clients;  ///< intake, simulation -> publisher
-  Wakeup publisher;      ///< the publisher waits here
+  ClientLedger clients;    ///< intake, simulation -> publisher
+  Wakeup publisher;        ///< the publisher waits here
+  Pulse simulation_pulse;  ///< beats with every tick
+  Pulse publisher_pulse;   ///< beats with every round
 };
 
 }  // namespace bleedsim::daemon

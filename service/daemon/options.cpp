@@ -20,8 +20,13 @@ constexpr int kMaxDefaultThreads = 8;
 constexpr double kMaxDuration = 1e9;
 
 constexpr const char* kFooter =
-    "Exit codes: 0 ended as asked (also by SIGINT or SIGTERM), 1 failure of the network or the system, 2 wrong command line,\n"
-    "domain, interface or scene, 3 another bleedd runs a session of this name.\n"
+    "Exit codes:\n"
+    "  0  ended as asked: by a shutdown request, --duration, SIGINT or SIGTERM\n"
+    "  1  failure of the network or the system, or ended at once by a second SIGINT or SIGTERM\n"
+    "  2  wrong command line, domain, interface, log file or scene: trying again does not help\n"
+    "  3  another bleedd runs a session of this name\n"
+    "SIGHUP opens --log-file anew, for tools that rotate logs. Without a log file and a service manager it is as SIGTERM.\n"
+    "A solver that stops on bad numbers does not end bleedd: the session is then 'faulted' until a reset or another scene.\n"
     "Without --interface only this host can take part. With CYCLONEDDS_URI set, that configuration is used as it is.";
 
 int defaultThreads() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxDefaultThreads); }
@@ -54,6 +59,7 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   std::string simd = "auto";
   double frame_rate = 0.0;
   double duration = 0.0;
+  std::string log_file_path;
 
   CLI::App app{"bleedd simulates a bleeding scene and publishes it over DDS", "bleedd"};
   app.footer(kFooter);
@@ -85,6 +91,13 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   auto* duration_option = app.add_option("--duration", duration, "End after this many simulated seconds")
                               ->check(finiteIn(0.0, kMaxDuration))
                               ->type_name("SECONDS");
+  app.add_option("--log-level", options.log.level, "trace, debug, info, warning, error or off")
+      ->check([](const std::string& level) { return textOf(checkLogLevel(level)); })
+      ->type_name("LEVEL")
+      ->capture_default_str();
+  auto* log_file =
+      app.add_option("--log-file", log_file_path, "Append the log to FILE; stderr then shows warnings and errors only")
+          ->type_name("FILE");
   app.add_flag("--check", options.check, "Check the scene, build its world and exit");
   auto* list = app.add_flag("--list-effects", options.list_effects,
                             "List the effects of this build: equation, source, deviation from the paper; with a scene, also "
@@ -101,6 +114,7 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   }
   if (rate_option->count() > 0) options.frame_rate = frame_rate;
   if (duration_option->count() > 0) options.duration = duration;
+  if (log_file->count() > 0) options.log.file = log_file_path;
   options.pace = *parsePace(pace);
   options.world.simd = *sph::parseSimdTarget(simd);
   return options;

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "service/daemon/exit_code.h"
+#include "service/daemon/log.h"
 #include "service/dds/request.h"
 #include "service/sph/world.h"
 
@@ -24,6 +25,7 @@ struct Options {
   bool check = false;
   bool list_effects = false;
   bool json = false;  ///< of list_effects
+  LogOptions log;
 };
 
 /// The options, or the code to exit with once help, version or a usage error was printed.

@@ -13,11 +13,28 @@ namespace {
 void logStart(const ServiceOptions& options, const Service& service, const scene::SceneDescription& scene,
               std::string_view simd) {
   const dds::SessionIdentity& identity = service.identity();
-  spdlog::info("bleedd {} runs session '{}' ({}) in domain {} on {}", identity.version, identity.name,
-               transport::toString(identity.uuid), options.participant.domain,
-               options.participant.interface.empty() ? "loopback" : options.participant.interface);
+  spdlog::info("bleedd {} runs session '{}' ({}) in domain {}", identity.version, identity.name,
+               transport::toString(identity.uuid), options.participant.domain);
+  if (const auto config = transport::chooseConfig(options.participant)) {
+    spdlog::info("DDS uses {}", transport::describe(*config));
+    if (config->kind == transport::ConfigKind::user && !options.participant.interface.empty()) {
+      spdlog::warn("--interface {} is not used: CYCLONEDDS_URI replaces it", options.participant.interface);
+    }
+  }
   spdlog::info("scene '{}', capacity {} particles, SIMD target {}", scene.name, scene.world.capacity, simd);
   for (const std::string& warning : scene.warnings) spdlog::warn("{}", warning);
+}
+
+void reopen(const std::shared_ptr<LogFile>& log_file) {
+  if (!log_file) {
+    spdlog::info("SIGHUP: there is no log file to reopen");
+    return;
+  }
+  if (const Status opened = log_file->reopen(); !opened) {
+    spdlog::error("{}; the log goes on in the old file", opened.message());
+    return;
+  }
+  spdlog::info("log file reopened");
 }
 
 /// Of a service that could not start or did not end as asked.
@@ -26,7 +43,8 @@ ExitCode exitCodeOf(const Status& status) {
   return status.code() == StatusCode::invalid_argument ? ExitCode::usage : ExitCode::failure;
 }
 
-ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory factory, SignalWatch& signals) {
+ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory factory, const std::shared_ptr<LogFile>& log_file,
+                    SignalWatch& signals) {
   const std::shared_ptr<const scene::SceneDescription> scene = loaded.scene;
   const std::string_view simd = sph::simdTargetName(loaded.world->simdTarget());
   ServiceOptions service_options;
@@ -34,16 +52,20 @@ ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory fac
   service_options.participant.interface = options.interface;
   service_options.session = options.session;
   service_options.simulation = {options.pace, options.frame_rate, options.duration};
+  service_options.manager = findServiceManager();
   Result<std::unique_ptr<Service>> service = Service::create(service_options, std::move(loaded), std::move(factory));
   if (!service) {
     spdlog::error("{}", service.status().message());
     return exitCodeOf(service.status());
   }
   logStart(service_options, **service, *scene, simd);
-  signals.start([&service] {
+  const auto end = [&service] {
     spdlog::info("asked to end");
     (*service)->requestStop();
-  });
+  };
+  // Without a file nor a service manager, SIGHUP means that the terminal is gone.
+  const bool stays = log_file != nullptr || service_options.manager.tell != nullptr;
+  signals.start({end, stays ? [&log_file] { reopen(log_file); } : std::function<void()>{}});
   const Status ended = (*service)->run();
   signals.stop();
   if (ended) {
@@ -56,7 +78,7 @@ ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory fac
 
 }  // namespace
 
-ExitCode runProgram(const Options& options, SignalWatch& signals) {
+ExitCode runProgram(const Options& options, const std::shared_ptr<LogFile>& log_file, SignalWatch& signals) {
   if (!options.scene) {
     fmt::print("{}", listEffects(nullptr, options.json));
     return ExitCode::ok;
@@ -80,7 +102,7 @@ ExitCode runProgram(const Options& options, SignalWatch& signals) {
     fmt::print("{}", describeWorld(*loaded));
     return ExitCode::ok;
   }
-  return runService(options, std::move(*loaded), factory, signals);
+  return runService(options, std::move(*loaded), factory, log_file, signals);
 }
 
 }  // namespace bleedsim::daemon

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "service/daemon/channels.h"
 #include "service/daemon/session_guard.h"
@@ -22,12 +23,16 @@ class Publisher {
                                                    const dds::SessionIdentity& identity, Channels& channels, SessionGuard guard);
 
   /// Publishes until requestStop() and then, once more, everything that is left, a last status "stopped" included. Calls
-  /// `give_way` once, if another daemon of the same session name stays instead of this one.
-  template <class GiveWay>
-  void run(GiveWay&& give_way) {
+  /// `give_way` once, if another daemon of the same session name stays instead of this one, and `shown` once, when the first
+  /// status is out.
+  template <class GiveWay, class Shown>
+  void run(GiveWay&& give_way, Shown&& shown) {
+    bool first = true;
     while (!stop_requested_.load(std::memory_order_acquire)) {
       if (const std::optional<Rival> rival = findStrongerRival()) give_way(*rival);
       publishPending();
+      channels_.publisher_pulse.beat();
+      if (std::exchange(first, false)) shown();
       channels_.publisher.wait(next_status_);
     }
     finish();

@@ -50,6 +50,7 @@ Result<std::unique_ptr<Service>> Service::create(const ServiceOptions& options, 
   service->intake_ = std::move(*intake);
   service->simulation_ =
       std::make_unique<Simulation>(options.simulation, std::move(first), std::move(factory), service->channels_, Clock::now());
+  service->supervisor_ = std::make_unique<Supervisor>(service->channels_, options.manager, Clock::now());
   return service;
 }
 
@@ -62,11 +63,16 @@ void Service::endWith(const Status& why) {
 }
 
 Status Service::run() {
-  std::thread publishing{[this] { publisher_->run([this](const Rival& rival) { endWith(nameTaken(identity_.name, rival)); }); }};
+  supervisor_->start();
+  std::thread publishing{[this] {
+    const auto give_way = [this](const Rival& rival) { endWith(nameTaken(identity_.name, rival)); };
+    publisher_->run(give_way, [this] { supervisor_->sessionShown(); });
+  }};
   std::thread taking{[this] {
     if (const Status ended = intake_->run(); !ended) endWith({StatusCode::io, ended.message()});
   }};
   simulation_->run();
+  supervisor_->stop();
   intake_->requestStop();
   taking.join();
   publisher_->requestStop();

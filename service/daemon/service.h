@@ -11,6 +11,7 @@
 #include "service/daemon/intake.h"
 #include "service/daemon/publisher.h"
 #include "service/daemon/simulation.h"
+#include "service/daemon/supervisor.h"
 
 namespace bleedsim::daemon {
 
@@ -18,6 +19,7 @@ struct ServiceOptions {
   transport::ParticipantOptions participant;
   std::string session = transport::kDefaultSession;
   SimulationOptions simulation;
+  ServiceManager manager;
 };
 
 class Service {
@@ -43,6 +45,7 @@ class Service {
   std::unique_ptr<Publisher> publisher_;
   std::unique_ptr<Intake> intake_;
   std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Supervisor> supervisor_;
   std::mutex mutex_;
   Status outcome_;  // guarded
 };

@@ -19,13 +19,14 @@ Result<std::unique_ptr<SignalWatch>> SignalWatch::create() {
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
   sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGHUP);
   const int signals = pthread_sigmask(SIG_BLOCK, &set, nullptr) == 0 ? signalfd(-1, &set, SFD_CLOEXEC) : -1;
   const int end = eventfd(0, EFD_CLOEXEC);
   if (signals >= 0 && end >= 0) return std::unique_ptr<SignalWatch>{new SignalWatch{signals, end}};
   const std::string reason = std::strerror(errno);
   if (signals >= 0) close(signals);
   if (end >= 0) close(end);
-  return Status{StatusCode::io, "could not watch for SIGINT and SIGTERM: " + reason};
+  return Status{StatusCode::io, "could not watch for signals: " + reason};
 }
 
 SignalWatch::~SignalWatch() {
@@ -34,8 +35,8 @@ SignalWatch::~SignalWatch() {
   close(end_);
 }
 
-void SignalWatch::start(std::function<void()> on_signal) {
-  on_signal_ = std::move(on_signal);
+void SignalWatch::start(Calls calls) {
+  calls_ = std::move(calls);
   thread_ = std::thread{[this] { watch(); }};
 }
 
@@ -54,9 +55,13 @@ void SignalWatch::watch() const {
     if ((waited[1].revents & POLLIN) != 0) return;
     signalfd_siginfo info{};
     if ((waited[0].revents & POLLIN) == 0 || read(signals_, &info, sizeof info) != sizeof info) continue;
+    if (info.ssi_signo == SIGHUP && calls_.hangup) {
+      calls_.hangup();
+      continue;
+    }
     if (!first) std::_Exit(EXIT_FAILURE);
     first = false;
-    on_signal_();
+    calls_.end();
   }
 }
 

@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM as calls on an ordinary thread.
+// SIGINT, SIGTERM and SIGHUP as calls on an ordinary thread.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace bleedsim::daemon {
 
-/// Takes SIGINT and SIGTERM of the whole process for as long as it lives. Make it before any other thread: threads inherit that
-/// the signals are blocked.
+/// Takes SIGINT, SIGTERM and SIGHUP of the whole process for as long as it lives. Make it before any other thread: threads
+/// inherit that the signals are blocked.
 class SignalWatch {
  public:
   static Result<std::unique_ptr<SignalWatch>> create();
@@ -18,8 +18,12 @@ class SignalWatch {
   SignalWatch(const SignalWatch&) = delete;
   SignalWatch& operator=(const SignalWatch&) = delete;
 
-  /// Calls `on_signal` for the first signal, one that came since create() included. A second signal ends the process at once.
-  void start(std::function<void()> on_signal);
+  struct Calls {
+    std::function<void()> end;     ///< for the first SIGINT or SIGTERM; a second one ends the process at once, with exit code 1
+    std::function<void()> hangup;  ///< for each SIGHUP; without it, SIGHUP is as SIGTERM
+  };
+  /// Calls for signals from now on, and for those that came since create().
+  void start(Calls calls);
   void stop();
 
  private:
@@ -28,7 +32,7 @@ class SignalWatch {
 
   int signals_;  // file descriptors
   int end_;
-  std::function<void()> on_signal_;
+  Calls calls_;
   std::thread thread_;
 };
 

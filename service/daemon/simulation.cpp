@@ -132,6 +132,7 @@ Simulation::Next Simulation::end() {
 }
 
 Simulation::Next Simulation::tick(TimePoint now) {
+  channels_.simulation_pulse.beat();
   finishLoading(now);
   finishSwitching();
   const bool more = drainInputs(now);

@@ -1,14 +1,12 @@
 #include "service/transport/domain.h"
 
-#include <algorithm>
-#include <cstdlib>
 #include <dds/dds.h>
+#include <dds/version.h>
 #include <fmt/core.h>
 #include <map>
 #include <mutex>
 
 #include "service/transport/entity.h"
-#include "service/transport/receive_buffer.h"
 
 namespace bleedsim::transport {
 
@@ -35,56 +33,19 @@ DomainRegistry& registry() {
   return instance;
 }
 
-const char* environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr && *value != '\0' ? value : nullptr;
-}
-
-Status checkTag(const std::string& tag) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
-  };
-  if (tag.size() <= 64 && std::all_of(tag.begin(), tag.end(), allowed)) return {};
-  return {StatusCode::invalid_argument,
-          fmt::format("domain tag '{}' is not valid: use at most 64 letters, digits, '_', '-' or '.'", tag.substr(0, 80))};
-}
-
-Result<Entity> configureDomain(const DomainOptions& options) {
-  const Result<NetworkInterface> interface = findInterface(options.interface, listInterfaces());
-  if (!interface) return interface.status();
-  const std::string xml = configXml(options.interface, interface->loopback, options.tag);
-  return Entity::adopt(dds_create_domain(options.domain, xml.c_str()),
-                       fmt::format("set up DDS domain {} on interface '{}'", options.domain, options.interface));
-}
-
 }  // namespace
 
-std::string configXml(const std::string& interface, bool loopback, const std::string& tag) {
-  // Loopback carries no multicast; saying so keeps the middleware from warning about it.
-  const char* sizes =
-      loopback
-          ? "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize>"
-          : "<MaxMessageSize>1460B</MaxMessageSize>";
-  const std::string tag_element = tag.empty() ? std::string{} : fmt::format("<Tag>{}</Tag>", tag);
-  return fmt::format(
-      "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces>{}</General>"
-      "<Discovery>{}<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>100</MaxAutoParticipantIndex>"
-      "<SPDPInterval>1s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
-      "<Internal><SocketReceiveBufferSize max=\"{}B\"/></Internal></Domain></CycloneDDS>",
-      interface, sizes, tag_element, kReceiveBufferBytes);
-}
+const char* middlewareVersion() { return DDS_VERSION; }
 
 Result<std::shared_ptr<DomainShare>> joinDomain(DomainOptions options) {
   if (options.domain > kMaxDomain) {
     return Status{StatusCode::invalid_argument,
                   fmt::format("DDS domain {} is out of range: use 0 to {}", options.domain, kMaxDomain)};
   }
-  const bool user_configured = environment("CYCLONEDDS_URI") != nullptr;
+  const Result<DomainConfig> config = chooseConfig(options);
+  if (!config) return config.status();
   if (options.interface.empty()) options.interface = "lo";
-  if (options.tag.empty()) {
-    if (const char* tag = environment("BLEEDSIM_DDS_TAG")) options.tag = tag;
-  }
-  if (const Status tag = checkTag(options.tag); !tag) return tag;
+  options.tag = config->tag;
 
   DomainRegistry& domains = registry();
   const std::lock_guard lock{domains.mutex};
@@ -95,8 +56,10 @@ Result<std::shared_ptr<DomainShare>> joinDomain(DomainOptions options) {
                               options.domain, existing->options().interface, existing->options().tag)};
   }
   Entity domain;
-  if (!user_configured) {
-    Result<Entity> configured = configureDomain(options);
+  if (config->kind != ConfigKind::user) {
+    Result<Entity> configured =
+        Entity::adopt(dds_create_domain(options.domain, configXml(*config).c_str()),
+                      fmt::format("set up DDS domain {} on interface '{}'", options.domain, config->interface));
     if (!configured) return configured.status();
     domain = std::move(*configured);
   }

@@ -3,28 +3,16 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "service/status/status.h"
-#include "service/transport/interfaces.h"
+#include "service/transport/domain_config.h"
 
 namespace bleedsim::transport {
 
 inline constexpr std::uint32_t kMaxDomain = 230;  // above, the UDP ports of the domain leave the valid range
 
-/// What distinguishes the configuration of a domain.
-struct DomainOptions {
-  std::uint32_t domain = 0;
-  std::string interface {};  ///< empty: "lo", so that nothing leaves the host unless someone asks for it
-  std::string tag{};         ///< participants with another tag never meet; empty: $BLEEDSIM_DDS_TAG, or none
-
-  bool operator==(const DomainOptions&) const = default;
-};
-
-/// Cyclone's configuration. On loopback: 64 KiB datagrams; elsewhere 1460 B, since the loss of one part loses a whole datagram.
-/// Receive buffer up to kReceiveBufferBytes (never a minimum: an unreachable one fails), lease 3 s and announcements every 1 s,
-/// so a killed peer is noticed within 3 s; up to 100 processes per domain and host.
-std::string configXml(const std::string& interface, bool loopback, const std::string& tag);
+/// Of the middleware, as "0.10.2".
+const char* middlewareVersion();
 
 /// A share in a configured domain; the domain goes with its last share.
 class DomainShare;

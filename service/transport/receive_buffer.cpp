@@ -12,25 +12,33 @@ std::size_t receiveBufferLimit() {
   return file >> bytes ? bytes : 0;
 }
 
-std::optional<std::string> BufferWatch::note(std::size_t frame_bytes) {
-  if (frame_bytes == frame_bytes_) return {};
-  frame_bytes_ = frame_bytes;
+std::optional<BufferShortage> findShortage(std::size_t limit, std::size_t frame_bytes) {
   const std::size_t needed = 2 * frame_bytes;
-  const std::size_t granted = std::min(limit_, kReceiveBufferBytes);
-  if (limit_ == 0 || granted >= needed) return {};
+  const std::size_t granted = std::min(limit, kReceiveBufferBytes);
+  if (limit == 0 || granted >= needed) return {};
   std::string remedy;
   if (granted < kReceiveBufferBytes) {
-    remedy = fmt::format("sysctl -w net.core.rmem_max={} on the hosts that receive frames (config/dds/60-bleedsim.conf keeps it)",
-                         kReceiveBufferBytes);
+    remedy =
+        fmt::format("sysctl -w net.core.rmem_max={} on the hosts that receive frames (config/systemd/60-bleedsim.conf keeps it)",
+                    kReceiveBufferBytes);
   }
   if (needed > kReceiveBufferBytes) {
     remedy += fmt::format("{}a smaller capacity or fewer attributes: no more than {} kB are asked for",
                           remedy.empty() ? "" : "; ", kReceiveBufferBytes / 1000);
   }
-  return fmt::format(
+  const std::string text = fmt::format(
       "this host grants receive buffers of {} kB, two frames of this scene at full capacity need {} kB: frames that large may be "
-      "lost. Remedy: {}",
-      granted / 1000, needed / 1000, remedy);
+      "lost",
+      granted / 1000, needed / 1000);
+  return BufferShortage{text, remedy};
+}
+
+std::optional<std::string> BufferWatch::note(std::size_t frame_bytes) {
+  if (frame_bytes == frame_bytes_) return {};
+  frame_bytes_ = frame_bytes;
+  const std::optional<BufferShortage> shortage = findShortage(limit_, frame_bytes);
+  if (!shortage) return {};
+  return fmt::format("{}. Remedy: {}", shortage->text, shortage->remedy);
 }
 
 }  // namespace bleedsim::transport

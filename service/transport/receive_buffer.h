@@ -14,6 +14,16 @@ inline constexpr std::size_t kReceiveBufferBytes = std::size_t{64} << 20;
 /// net.core.rmem_max in bytes, 0 when it cannot be read: the largest receive buffer that a process of this host gets.
 std::size_t receiveBufferLimit();
 
+/// What lacks for frames of a size, and what helps.
+struct BufferShortage {
+  std::string text;
+  std::string remedy;
+};
+
+/// Whether buffers of a host with this limit, see receiveBufferLimit(), are too small for two frames of this payload. A limit of
+/// 0, not known, is never.
+std::optional<BufferShortage> findShortage(std::size_t limit, std::size_t frame_bytes);
+
 /// Warns when the receive buffers of this host are too small for the frames of a session: less than two of them loses frames.
 class BufferWatch {
  public:

@@ -144,7 +144,13 @@ TEST_F(BleedctlBleeddTest, WoundsAreAddedMovedChangedAndRemoved) {
   EXPECT_EQ(text(json({"wound", "move", id, "--at", "-0.02,0.01,0"}), "code"), "accepted");
   EXPECT_EQ(text(json({"wound", "set", id, "--flow-ml-per-s", "0.5"}), "code"), "accepted");
   EXPECT_EQ(text(json({"wound", "set", id, "--pressure-mmhg", "0.3", "--name", "vein"}), "code"), "accepted");
-  const test::Finished removed = bleedctl({"wound", "remove", id});
+  EXPECT_EQ(number(json({"wound", "set", "vein", "--flow-ml-per-s", "0.2"}), "object_id"), 2.0);
+  EXPECT_EQ(text(json({"wound", "move", "vein", "--at", "-0.02,0,0"}), "code"), "accepted");
+  const test::Finished artery = bleedctl({"wound", "remove", "artery"});
+  EXPECT_EQ(artery.code, 1);
+  EXPECT_THAT(artery.output, HasSubstr("there is no wound named 'artery'"));
+  EXPECT_THAT(bleedctl({"status"}).output, HasSubstr("1 requests (1 refused, 0 busy, 0 resent), 0 instrument samples"));
+  const test::Finished removed = bleedctl({"wound", "remove", "vein"});
   EXPECT_EQ(removed.code, 0);
   EXPECT_THAT(removed.output, HasSubstr("wound 2"));
   eventually([](const client::SessionStatus& status) { return status.wounds == 1; });
@@ -267,7 +273,8 @@ TEST_F(BleedctlBleeddTest, ResetLoadAndShutdown) {
 
 TEST_F(BleedctlBleeddTest, WrongUseHasCodeTwoAndReachesNobody) {
   EXPECT_EQ(bleedctl({"pause", "--fast"}).code, 2);
-  EXPECT_EQ(bleedctl({"wound", "remove", "first"}).code, 2);
+  EXPECT_EQ(bleedctl({"wound", "remove", ""}).code, 2);
+  EXPECT_EQ(bleedctl({"wound", "move", "1", "--at", "1,2"}).code, 2);
   EXPECT_EQ(bleedctl({"pause", "--session", "no such name"}).code, 2);
   EXPECT_EQ(bleedctl({"pause", "--interface", "none0"}).code, 2);
   EXPECT_EQ(bleedctl({"pause", "--session", "other", "--timeout", "1"}).code, 3);

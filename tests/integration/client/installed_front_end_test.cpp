@@ -23,7 +23,7 @@ class InstalledFrontEndTest : public testing::Test {
     isolate();
     root_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_installed_{}", getpid());
     fs::create_directories(root_);
-    for (const char* component : {"client", "programs"}) {
+    for (const char* component : {"client", "daemon"}) {
       const test::Finished installed =
           test::runProcess({CMAKE_PATH, "--install", BLEEDSIM_BUILD_DIR, "--prefix", prefix(), "--component", component}, true);
       ASSERT_EQ(installed.code, 0) << installed.output;

@@ -23,6 +23,7 @@ const std::vector<LibraryRule>& libraryRules() {
       {"dds/", {"transport", "recording"}},
       {"google/protobuf/", {"scene", "recording"}},
       {"spdlog/", {"daemon"}},
+      {"systemd/", {"daemon"}},
       {"CLI/", {"daemon", "client", "lab"}},
       {"nlohmann/", {"lab"}},
       {"fmt/", {"scene", "transport", "dds", "recording", "daemon", "client", "lab"}},

@@ -98,6 +98,23 @@ TEST(IncludeRules, acceptWhatIsAllowed) {
   EXPECT_EQ(problem("clients/examples/front_end.cpp", "#include <bleedsim/client.h>"), "");
 }
 
+// The simulation's thread waits for nobody: it neither writes the log nor calls the middleware nor the service manager.
+TEST(IncludeRules, theSimulationSeesNoLogAndNoMiddleware) {
+  std::size_t files = 0;
+  for (const SourceFile& file : readFiles(sourceRoot(), {"service/daemon"})) {
+    if (!file.path.starts_with("service/daemon/simulation")) continue;
+    ++files;
+    for (const std::string& line : file.lines) {
+      const std::optional<Include> include = parseInclude(line);
+      if (!include) continue;
+      for (const char* hidden : {"spdlog/", "dds/", "systemd/", "service/transport/writer.h", "service/transport/reader.h"}) {
+        EXPECT_FALSE(include->target.starts_with(hidden)) << file.path << ": " << include->target;
+      }
+    }
+  }
+  EXPECT_GE(files, 6U);
+}
+
 TEST(IncludeRules, holdInTheWholeTree) {
   const LayerTable table = tableOfTheBuild();
   std::size_t includes = 0;

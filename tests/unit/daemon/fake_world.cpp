@@ -69,6 +69,7 @@ Result<sph::Applied> FakeWorld::apply(const sph::Command& command) {
 
 Status FakeWorld::step(double dt_limit) {
   if (!(dt_limit > 0.0)) return {StatusCode::invalid_argument, "dt_limit must be positive"};
+  if (log_->before_step) log_->before_step(steps_ + 1);
   if (steps_ + 1 == log_->fail_at_step) {
     faulted_ = true;
     return {StatusCode::internal, "particle 1 is not finite"};

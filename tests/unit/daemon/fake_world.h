@@ -1,6 +1,7 @@
 // A world without physics, whose steps a test can predict.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,7 +17,8 @@ namespace bleedsim::daemon {
 struct FakeLog {
   std::vector<std::pair<std::uint64_t, sph::Command>> applied;  ///< with the steps that were done
   std::map<sph::ForceKey, sph::SetForce> forces;
-  std::uint64_t fail_at_step = 0;  ///< the step that fails, 0: none
+  std::uint64_t fail_at_step = 0;                  ///< the step that fails, 0: none
+  std::function<void(std::uint64_t)> before_step;  ///< told its number; may hold the step up
   bool refuse_adoption = false;
   int adoptions = 0;
   bool refuse_wounds = false;

@@ -20,12 +20,16 @@ TEST(Options, HaveDefaults) {
   EXPECT_EQ(options->domain, 0U);
   EXPECT_EQ(options->pace.mode, dds::PaceMode::real_time);
   EXPECT_FALSE(options->frame_rate || options->duration);
+  EXPECT_EQ(options->log.level, "info");
+  EXPECT_FALSE(options->log.file);
   EXPECT_GE(options->world.threads, 1);
 }
 
 TEST(Options, AreRead) {
-  const auto parsed = parse({"--scene", "a", "--session", "OR_1", "--domain", "9", "--interface", "eth7", "--pace", "0.25",
-                             "--frame-rate", "30", "--threads", "2", "--simd", "scalar", "--duration", "5", "--check"});
+  const auto parsed =
+      parse({"--scene",    "a",    "--session",    "OR_1",        "--domain",  "9",          "--interface", "eth7",
+             "--pace",     "0.25", "--frame-rate", "30",          "--threads", "2",          "--simd",      "scalar",
+             "--duration", "5",    "--check",      "--log-level", "debug",     "--log-file", "bleedd.log"});
   const auto* options = std::get_if<Options>(&parsed);
   ASSERT_NE(options, nullptr);
   EXPECT_EQ(options->session, "OR_1");
@@ -38,6 +42,8 @@ TEST(Options, AreRead) {
   EXPECT_EQ(options->world.threads, 2);
   EXPECT_EQ(options->world.simd, sph::SimdTarget::scalar);
   EXPECT_TRUE(options->check);
+  EXPECT_EQ(options->log.level, "debug");
+  EXPECT_EQ(options->log.file, "bleedd.log");
 }
 
 TEST(Options, WrongOnesAreUsageErrors) {
@@ -48,6 +54,8 @@ TEST(Options, WrongOnesAreUsageErrors) {
       {"--scene", "a", "--session", "*"},
       {"--scene", "a", "--domain", "500"},
       {"--scene", "a", "--pace", "fast"},
+      {"--scene", "a", "--log-level", "loud"},
+      {"--scene", "a", "--log-file"},
       {"--scene", "a", "--pace", "0"},
       {"--scene", "a", "--pace", "nan"},
       {"--scene", "a", "--frame-rate", "0"},

@@ -3,28 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "service/transport/interfaces.h"
 #include "service/transport/participant.h"
 
 namespace bleedsim::transport {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
-
-TEST(ConfigXml, UsesLargeDatagramsOnLoopbackOnly) {
-  const std::string loopback = configXml("lo", true, "");
-  EXPECT_THAT(loopback, HasSubstr("<MaxMessageSize>65500B</MaxMessageSize>"));
-  EXPECT_THAT(loopback, HasSubstr("<FragmentSize>65000B</FragmentSize>"));
-  const std::string network = configXml("eth0", false, "lab");
-  EXPECT_THAT(network, HasSubstr("<MaxMessageSize>1460B</MaxMessageSize>"));
-  EXPECT_THAT(network, Not(HasSubstr("FragmentSize")));
-  EXPECT_THAT(network, HasSubstr("<Tag>lab</Tag>"));
-}
-
-TEST(ConfigXml, NeverDemandsAMinimumReceiveBuffer) {
-  EXPECT_THAT(configXml("lo", true, ""), HasSubstr("<SocketReceiveBufferSize max=\"67108864B\"/>"));
-  EXPECT_THAT(configXml("lo", true, ""), Not(HasSubstr("min=")));
-}
 
 TEST(Interfaces, AMissingOneIsRefusedWithTheExistingNames) {
   const std::vector<NetworkInterface> existing{{"lo", true, true}, {"eth7", false, true}, {"eth8", false, false}};
