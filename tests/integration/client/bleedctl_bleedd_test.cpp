@@ -1,4 +1,5 @@
 // Every command of bleedctl, as a process of its own, against a real bleedd.
+#include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -149,6 +150,10 @@ TEST_F(BleedctlBleeddTest, WoundsAreAddedMovedChangedAndRemoved) {
   const test::Finished artery = bleedctl({"wound", "remove", "artery"});
   EXPECT_EQ(artery.code, 1);
   EXPECT_THAT(artery.output, HasSubstr("there is no wound named 'artery'"));
+  statusWhere([](const Json& status) {
+    const auto& clients = member(status, "clients").list_value().values();
+    return std::any_of(clients.begin(), clients.end(), [](const Json& client) { return number(client, "refused") == 1.0; });
+  });
   EXPECT_THAT(bleedctl({"status"}).output, HasSubstr("1 requests (1 refused, 0 busy, 0 resent), 0 instrument samples"));
   const test::Finished removed = bleedctl({"wound", "remove", "vein"});
   EXPECT_EQ(removed.code, 0);
