@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,8 @@ struct RecordingSummary {
   std::string simd_target;
   std::string precision;
   std::uint64_t file_bytes = 0;
+  /// Largest errors of 16-bit attributes, by name, in their units; empty: every value is as it was published.
+  std::map<std::string, double> max_errors;
   /// Of the last statistics: the solver's since its epoch began, the service's since its start.
   std::vector<std::pair<std::string, std::uint64_t>> fault_counters;
   /// First and last seq of each run of missing frames, the first 1000 of them; empty where frames were skipped.
