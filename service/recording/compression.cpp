@@ -1,6 +1,5 @@
 #include "service/recording/compression.h"
 
-#include <array>
 #include <fmt/core.h>
 #include <lz4frame.h>
 #include <zstd.h>
@@ -8,26 +7,21 @@
 namespace bleedsim::recording {
 namespace {
 
-struct Row {
-  Compression compression;
-  std::string_view name;
-};
-
-constexpr std::array<Row, 3> kRows{{{Compression::none, "none"}, {Compression::lz4, "lz4"}, {Compression::zstd, "zstd"}}};
-
 ::bleedsim::Status damaged(std::string message) { return {StatusCode::data_loss, std::move(message)}; }
 
 }  // namespace
 
-Result<Compression> parseCompression(std::string_view name) {
-  for (const Row& row : kRows) {
-    if (row.name == name) return row.compression;
+std::string_view nameOf(Compression compression) {
+  switch (compression) {
+    case Compression::none:
+      return "none";
+    case Compression::lz4:
+      return "lz4";
+    case Compression::zstd:
+      break;
   }
-  return ::bleedsim::Status{StatusCode::invalid_argument,
-                            fmt::format("there is no compression '{:.32}': choose one of none, lz4, zstd", name)};
+  return "zstd";
 }
-
-std::string_view nameOf(Compression compression) { return kRows[static_cast<std::size_t>(compression)].name; }
 
 namespace mcap {
 namespace {

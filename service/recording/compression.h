@@ -17,8 +17,7 @@ namespace bleedsim::recording {
 
 enum class Compression { none, lz4, zstd };
 
-/// none, lz4 or zstd; invalid_argument: the message lists them.
-Result<Compression> parseCompression(std::string_view name);
+/// none, lz4 or zstd.
 std::string_view nameOf(Compression compression);
 
 namespace mcap {

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "service/recording/export_job.h"
+#include "service/recording/file_sink.h"
 #include "service/recording/frame_columns.h"
 
 namespace bleedsim::recording {

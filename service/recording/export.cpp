@@ -2,7 +2,6 @@
 
 #include <array>
 #include <fmt/core.h>
-#include <system_error>
 #include <utility>
 
 #include "service/recording/export_job.h"
@@ -48,32 +47,20 @@ Result<ExportReport> exportRecording(const std::filesystem::path& recording, Exp
   Result<std::vector<std::size_t>> frames = selectFrames(selection, *total);
   if (!frames) return frames.status();
   const std::size_t digits = numberDigits(*total);
-  if (!row.one_file) return row.run({*reader, std::move(*frames), digits, output, progress});
-
+  if (!row.one_file) {
+    Result<ExportReport> report = row.run({*reader, std::move(*frames), digits, output, progress});
+    if (report) report->truncation_reason = reader->truncationReason();
+    return report;
+  }
   if (::bleedsim::Status status = checkTarget(recording, output); !status) return status;
   PartFile part{output};
   Result<ExportReport> report = row.run({*reader, std::move(*frames), digits, part.path(), progress});
-  if (!report || !report->whole) return report;
-  if (::bleedsim::Status status = part.keep(); !status) return status;
+  if (!report) return report;
   report->output = output;
+  report->truncation_reason = reader->truncationReason();
+  const ::bleedsim::Status kept = report->whole ? part.keep() : ::bleedsim::Status{};
+  if (!kept.ok()) return kept;
   return report;
-}
-
-::bleedsim::Status createFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!error && !std::filesystem::is_directory(folder, error) && !error) error = std::make_error_code(std::errc::not_a_directory);
-  if (!error) return {};
-  return {StatusCode::io,
-          fmt::format("cannot create directory '{}': {}; choose one that you may write", folder.string(), error.message())};
-}
-
-::bleedsim::Status writeFile(const std::filesystem::path& path, const std::string& content) {
-  Result<FileSink> sink = FileSink::open(path);
-  if (!sink) return sink.status();
-  const ::bleedsim::Status written = sink->write(content);
-  const ::bleedsim::Status closed = sink->closeQuickly();
-  return written ? closed : written;
 }
 
 }  // namespace bleedsim::recording

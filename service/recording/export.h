@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
 
 #include "service/recording/frame_selection.h"
@@ -27,14 +28,15 @@ using ExportProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
 struct ExportReport {
   std::size_t frames = 0;
-  std::uint64_t bytes = 0;       ///< of all files
-  std::filesystem::path output;  ///< what to open: the .pvd, the folder of .ply, or the file
-  bool whole = true;             ///< false: the progress ended it
+  std::uint64_t bytes = 0;          ///< of all files
+  std::filesystem::path output;     ///< what to open: the .pvd, the folder of .ply, or the file
+  bool whole = true;                ///< false: the progress ended it
+  std::string truncation_reason{};  ///< of the recording: it was cut off there; empty when it has its index
 };
 
 /// Files are numbered as the frames of the recording. A folder is created when missing, files of the same names are replaced; an
 /// export into one file that is ended early leaves what was there before. Errors: io (the message names the file), data_loss for
-/// frames that contradict themselves, not_found as selectFrames(), invalid_argument: `output` is `recording`, or is no file where
+/// frames that contradict themselves, otherwise as selectFrames(); invalid_argument: `output` is `recording`, or is no file where
 /// one is to be written.
 Result<ExportReport> exportRecording(const std::filesystem::path& recording, ExportFormat format,
                                      const std::filesystem::path& output, const FrameSelection& selection = {},

@@ -1,4 +1,4 @@
-// What the exports share: the frames to write, the end, and the times of a whole recording.
+// What the exports share: the frames to write, and the times of a whole recording.
 #pragma once
 
 #include <fmt/core.h>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "service/recording/export.h"
-#include "service/recording/file_sink.h"
 
 namespace bleedsim::recording {
 
@@ -54,8 +53,5 @@ class Timeline {
   double offset_ = 0.0;
   double last_ = 0.0;
 };
-
-::bleedsim::Status createFolder(const std::filesystem::path& folder);
-::bleedsim::Status writeFile(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace bleedsim::recording

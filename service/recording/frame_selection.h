@@ -14,7 +14,8 @@ struct FrameSelection {
   std::size_t every = 1;               ///< else each so many, from the first; at least 1
 };
 
-/// Numbers of frames, rising. not_found: the recording is empty, or has no such frame; the message says how many there are.
+/// Numbers of frames, rising. not_found: the recording has none; invalid_argument: it has no such frame, the message says how
+/// many there are.
 Result<std::vector<std::size_t>> selectFrames(const FrameSelection& selection, std::size_t total);
 
 /// Digits that the numbers of all frames need in file names, at least 6.

@@ -5,6 +5,7 @@
 
 #include "service/recording/export_job.h"
 #include "service/recording/frame_columns.h"
+#include "service/recording/write_file.h"
 
 namespace bleedsim::recording {
 namespace {

@@ -41,6 +41,7 @@ struct RecordingSummary {
   std::string build_id;  ///< of the daemon
   std::string simd_target;
   std::string precision;
+  std::string compression;  ///< of the chunks: none, lz4 or zstd; empty when there are none
   std::uint64_t file_bytes = 0;
   /// Largest errors of 16-bit attributes, by name, in their units; empty: every value is as it was published.
   std::map<std::string, double> max_errors;

@@ -9,6 +9,7 @@
 
 #include "service/recording/export_job.h"
 #include "service/recording/frame_layout.h"
+#include "service/recording/write_file.h"
 
 namespace bleedsim::recording {
 namespace {
