@@ -17,14 +17,13 @@ using recording::AttributeBlock;
 
 constexpr double kDrawnRadius = 0.6;  // spacings: neighbours at rest overlap a little
 constexpr double kMargin = 3.0;       // spacings around the blood
-constexpr const char* kSpeed = "speed";
 
 struct ColorRow {
   const char* name;
   Attribute::Semantic semantic;
   const char* unit;
 };
-constexpr std::array<ColorRow, 5> kColors{{{kSpeed, Attribute::VELOCITY, "m/s"},
+constexpr std::array<ColorRow, 5> kColors{{{"speed", Attribute::VELOCITY, "m/s"},
                                            {"radius", Attribute::RADIUS, "m"},
                                            {"platelet", Attribute::PLATELET, ""},
                                            {"viscosity", Attribute::VISCOSITY, "Pa s"},
@@ -98,11 +97,11 @@ Status FramePainter::loadValues() {
   const ColorRow* row = colorOf(options_.color_by);
   const AttributeBlock* block = row == nullptr ? nullptr : recording::findBlock(*blocks, row->semantic);
   if (block == nullptr) {
-    return {StatusCode::invalid_argument,
-            fmt::format("frame {} cannot be coloured by '{}': it has {}", frame_.seq(), options_.color_by, colorsOf(*blocks))};
+    return {StatusCode::invalid_argument, fmt::format("the blood at {:.3f} s cannot be coloured by '{:.32}': there is {}",
+                                                      frame_.sim_time_s(), options_.color_by, colorsOf(*blocks))};
   }
   recording::readFloats(*block, colors_);
-  if (row->name == kSpeed) takeLengths(colors_, block->attribute->components());
+  if (row->semantic == Attribute::VELOCITY) takeLengths(colors_, block->attribute->components());
   return {};
 }
 
