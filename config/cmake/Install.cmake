@@ -29,3 +29,5 @@ install(FILES "${PROJECT_BINARY_DIR}/bleedsimConfig.cmake" "${PROJECT_BINARY_DIR
 install(TARGETS bleedd bleedctl RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/config/scenes" DESTINATION "${CMAKE_INSTALL_DATADIR}/bleedsim" COMPONENT programs
         FILES_MATCHING PATTERN "*.textproto")
+install(FILES "${PROJECT_SOURCE_DIR}/config/recording/foxglove_layout.json" DESTINATION "${CMAKE_INSTALL_DATADIR}/bleedsim/recording"
+        COMPONENT programs)

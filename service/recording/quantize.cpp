@@ -40,11 +40,16 @@ std::optional<Scaling> scalingOf(std::span<const float> values) {
 }
 
 void appendQuantized(std::string& payload, std::span<const float> values, const Scaling& scaling) {
-  const double scale = static_cast<double>(scaling.scale);
+  const std::size_t at = payload.size();
+  payload.resize(at + values.size() * sizeof(std::uint16_t));
+  char* out = payload.data() + at;
+  const double offset = static_cast<double>(scaling.offset);
+  const double per_step = scaling.scale > 0.0F ? 1.0 / static_cast<double>(scaling.scale) : 0.0;
   for (const float value : values) {
-    const double step = scale > 0.0 ? (static_cast<double>(value) - static_cast<double>(scaling.offset)) / scale : 0.0;
-    const auto stored = static_cast<std::uint16_t>(std::lround(std::clamp(step, 0.0, kSteps)));
-    payload.append(reinterpret_cast<const char*>(&stored), sizeof stored);
+    const double step = std::min((static_cast<double>(value) - offset) * per_step, kSteps);
+    const auto stored = static_cast<std::uint16_t>(step + 0.5);
+    std::memcpy(out, &stored, sizeof stored);
+    out += sizeof stored;
   }
 }
 
