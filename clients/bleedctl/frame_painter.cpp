@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fmt/core.h>
 
 #include "clients/bleedctl/tissue_shapes.h"
@@ -41,15 +40,6 @@ std::string colorsOf(const std::vector<AttributeBlock>& blocks) {
     if (recording::findBlock(blocks, row.semantic) != nullptr) names += (names.empty() ? "" : ", ") + std::string{row.name};
   }
   return names.empty() ? "nothing" : names;
-}
-
-void takeLengths(std::vector<float>& values, std::size_t components) {
-  for (std::size_t i = 0; i * components < values.size(); ++i) {
-    float sum = 0.0F;
-    for (std::size_t c = 0; c < components; ++c) sum += values[i * components + c] * values[i * components + c];
-    values[i] = std::sqrt(sum);
-  }
-  values.resize(values.size() / components);
 }
 
 template <class Box>
@@ -100,8 +90,13 @@ Status FramePainter::loadValues() {
     return {StatusCode::invalid_argument, fmt::format("the blood at {:.3f} s cannot be coloured by '{:.32}': there is {}",
                                                       frame_.sim_time_s(), options_.color_by, colorsOf(*blocks))};
   }
-  recording::readFloats(*block, colors_);
-  if (row->semantic == Attribute::VELOCITY) takeLengths(colors_, block->attribute->components());
+  std::vector<float> values;
+  recording::readFloats(*block, values);
+  if (row->semantic == Attribute::VELOCITY) {
+    recording::vectorLengths(values, block->attribute->components(), colors_);
+  } else {
+    colors_ = std::move(values);
+  }
   return {};
 }
 

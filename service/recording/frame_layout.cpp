@@ -1,6 +1,7 @@
 #include "service/recording/frame_layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fmt/core.h>
@@ -52,6 +53,15 @@ void readFloats(const AttributeBlock& block, std::vector<float>& out) {
     std::uint16_t stored = 0;
     std::memcpy(&stored, block.bytes.data() + i * sizeof stored, sizeof stored);
     out[i] = attribute.offset() + attribute.scale() * static_cast<float>(stored);
+  }
+}
+
+void vectorLengths(std::span<const float> vectors, std::size_t components, std::vector<float>& out) {
+  out.resize(vectors.size() / components);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    float sum = 0.0F;
+    for (const float part : vectors.subspan(i * components, components)) sum += part * part;
+    out[i] = std::sqrt(sum);
   }
 }
 

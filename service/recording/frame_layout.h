@@ -23,6 +23,9 @@ Result<std::vector<AttributeBlock>> layoutOf(const Frame& frame);
 /// Its values as floats, scaled ones decoded: count x components. Not for ids.
 void readFloats(const AttributeBlock& block, std::vector<float>& out);
 
+/// The lengths of vectors of so many components, in float.
+void vectorLengths(std::span<const float> vectors, std::size_t components, std::vector<float>& out);
+
 /// The block of that meaning; null when the frame has none.
 const AttributeBlock* findBlock(std::span<const AttributeBlock> blocks, Attribute::Semantic semantic);
 

@@ -1,7 +1,7 @@
 #include "service/recording/point_cloud.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -98,13 +98,8 @@ void putFloats(const std::vector<float>& values, std::size_t points, std::size_t
     readFloats(block, values);
     putFloats(values, points, block.attribute->components(), packer);
     if (block.attribute->semantic() != Attribute::VELOCITY) continue;
-    std::vector<float> speeds(points);
-    const std::size_t components = block.attribute->components();
-    for (std::size_t i = 0; i < points; ++i) {
-      float sum = 0.0F;
-      for (std::size_t c = 0; c < components; ++c) sum += values[i * components + c] * values[i * components + c];
-      speeds[i] = std::sqrt(sum);
-    }
+    std::vector<float> speeds;
+    vectorLengths(values, block.attribute->components(), speeds);
     putFloats(speeds, points, 1, packer);
   }
   return {};
