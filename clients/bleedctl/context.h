@@ -54,7 +54,7 @@ void addSessionCommands(CLI::App& app, Context& context);    // list, status, wa
 void addControlCommands(CLI::App& app, Context& context);    // pause, resume, reset, step, pace, load, shutdown
 void addWoundCommands(CLI::App& app, Context& context);      // wound add, move, set, remove; force
 void addEffectCommands(CLI::App& app, Context& context);     // effect list, on, off
-void addRecordingCommands(CLI::App& app, Context& context);  // record, info, export
+void addRecordingCommands(CLI::App& app, Context& context);  // record, info, recover, export, render
 void addDoctorCommand(CLI::App& app, Context& context);      // doctor
 
 /// Parses, runs and returns the exit code.

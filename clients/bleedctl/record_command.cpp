@@ -1,7 +1,6 @@
-#include "clients/bleedctl/record_command.h"
-
 #include <cstdio>
 #include <fmt/core.h>
+#include <map>
 #include <memory>
 #include <unistd.h>
 
@@ -9,6 +8,7 @@
 #include "clients/bleedctl/json.h"
 #include "clients/bleedctl/record_narrator.h"
 #include "clients/bleedctl/record_outcome.h"
+#include "clients/bleedctl/recording_commands.h"
 #include "clients/bleedctl/stop_signal.h"
 
 namespace bleedsim::bleedctl {
@@ -25,14 +25,28 @@ constexpr const char* kRecordText =
     "case; --json tells 'complete' and 'ended_by' (limit, interrupt, session, file, middleware, error). At the end it waits\n"
     "up to a second for frames, statistics and inputs that are still being resent. What came reaches the file within a\n"
     "second: 'bleedctl recover' makes a complete file of one that was cut off by kill -9 or a full disk. A disk that is too\n"
-    "slow ends the recording, never the session.\n\n";
+    "slow ends the recording, never the session.\n"
+    "--quantize 16 halves the file: each attribute of a frame is stored in 65536 steps over its own range, ids stay exact.\n"
+    "'bleedctl info' states the largest error. --pointcloud is for Foxglove and Lichtblick; points are never quantised.\n\n";
 
 struct RecordArguments {
   std::string path;
   double duration_s = 0.0;
   std::uint64_t frames = 0;
   double rate_hz = 0.0;
+  std::string compression = "zstd";
+  int quantize_bits = 0;
+  bool point_cloud = false;
+
+  client::RecordingFormat format() const;
 };
+
+const std::map<std::string, client::Compression> kCompressions{
+    {"none", client::Compression::none}, {"lz4", client::Compression::lz4}, {"zstd", client::Compression::zstd}};
+
+client::RecordingFormat RecordArguments::format() const {
+  return {.compression = kCompressions.at(compression), .quantize16 = quantize_bits == 16, .point_cloud = point_cloud};
+}
 
 void report(const Context& context, const std::string& path, const client::RecordingProgress& progress,
             const RecordOutcome& outcome) {
@@ -64,13 +78,14 @@ void follow(client::Recorder& recorder, RecordNarrator& narrator, const client::
   }
 }
 
-int runRecord(const Context& context, const std::string& path, const client::RecordingLimits& limits) {
+int runRecord(const Context& context, const std::string& path, const client::RecordingLimits& limits,
+              const client::RecordingFormat& format) {
   Result<client::Client> client = client::Client::create(context.connection);
   if (!client) return fail(client.status());
   const Result<client::SessionStatus> session = client->find(context.session, context.timeout());
   if (!session) return fail(session.status());
   holdStopSignals();
-  Result<client::Recorder> recorder = client::Recorder::start(*client, session->name, path, limits);
+  Result<client::Recorder> recorder = client::Recorder::start(*client, session->name, path, limits, format);
   if (!recorder) return fail(recordExitCode(recorder.status()), recorder.status().message());
   const bool terminal = isatty(STDERR_FILENO) == 1;
   RecordNarrator narrator{session->name, path, terminal};
@@ -102,12 +117,22 @@ void addRecord(CLI::App& app, Context& context) {
   CLI::Option* rate = record->add_option("--rate", v->rate_hz, "Record at most so many frames per simulated second")
                           ->check(finiteIn(1e-9, 1e6))
                           ->type_name("HZ");
+  record->add_option("--compress", v->compression, "none, lz4 or zstd")
+      ->check(CLI::IsMember{{"none", "lz4", "zstd"}})
+      ->capture_default_str()
+      ->type_name("HOW");
+  record->add_option("--quantize", v->quantize_bits, "Bits of each number of a frame: 16; default: as published")
+      ->check(CLI::IsMember{{16}})
+      ->type_name("BITS");
+  record->add_flag("--pointcloud", v->point_cloud, "Add each frame as a foxglove.PointCloud");
   record->callback([&context, v, duration, frames, rate] {
     client::RecordingLimits limits;
     if (duration->count() > 0) limits.duration_s = v->duration_s;
     if (frames->count() > 0) limits.frames = v->frames;
     if (rate->count() > 0) limits.rate_hz = v->rate_hz;
-    context.action = [&context, path = v->path, limits] { return runRecord(context, path, limits); };
+    context.action = [&context, path = v->path, limits, format = v->format()] {
+      return runRecord(context, path, limits, format);
+    };
   });
 }
 

@@ -38,6 +38,18 @@ Status checkLimits(const RecordingLimits& limits) {
   return {StatusCode::invalid_argument, "duration, frames and rate of a recording have to be above 0"};
 }
 
+recording::Compression compressionOf(Compression compression) {
+  switch (compression) {
+    case Compression::none:
+      return recording::Compression::none;
+    case Compression::lz4:
+      return recording::Compression::lz4;
+    case Compression::zstd:
+      break;
+  }
+  return recording::Compression::zstd;
+}
+
 /// The daemon that runs the session, as far as the client has heard of it. A killed one and its successor are both known for a
 /// while.
 std::optional<KnownDaemon> newestDaemon(const std::vector<SessionStatus>& sessions, const std::string& name) {
@@ -248,12 +260,15 @@ Recorder& Recorder::operator=(Recorder&&) noexcept = default;
 Recorder::~Recorder() = default;
 
 Result<Recorder> Recorder::start(Client& client, const std::string& session, const std::string& path,
-                                 const RecordingLimits& limits) {
+                                 const RecordingLimits& limits, const RecordingFormat& format) {
   if (Status checked = checkLimits(limits); !checked) return checked;
   const std::optional<KnownDaemon> daemon = newestDaemon(client.sessions(), session);
   Result<RecorderInputs> inputs = RecorderInputs::open(client.impl_->participant(), session);
   if (!inputs) return inputs.status();
   recording::WriterOptions options;
+  options.compression = compressionOf(format.compression);
+  options.quantize16 = format.quantize16;
+  options.point_cloud = format.point_cloud;
   if (limits.rate_hz) options.notes[recording::kRateNote] = fmt::format("{}", *limits.rate_hz);
   Result<recording::RecordingWriter> writer = recording::RecordingWriter::open(path, options);
   if (!writer) return writer.status();

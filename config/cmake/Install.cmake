@@ -41,3 +41,4 @@ install(CODE "
   configure_file(\"${PROJECT_SOURCE_DIR}/config/systemd/bleedd@.service.in\" \"\${unit}\" @ONLY)
   list(APPEND CMAKE_INSTALL_MANIFEST_FILES \"\${CMAKE_INSTALL_PREFIX}/lib/systemd/system/bleedd@.service\")
 " COMPONENT daemon)
+install(FILES "${PROJECT_SOURCE_DIR}/config/recording/foxglove_layout.json" DESTINATION share/bleedsim/recording COMPONENT daemon)

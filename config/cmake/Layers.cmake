@@ -10,7 +10,7 @@ set(BLEEDSIM_MAY_dds status idl transport sph)
 set(BLEEDSIM_MAY_recording status idl)
 set(BLEEDSIM_MAY_picture status)
 set(BLEEDSIM_MAY_daemon status idl dds transport scene sph)
-set(BLEEDSIM_MAY_client status idl transport recording)
+set(BLEEDSIM_MAY_client status idl transport recording picture)
 set(BLEEDSIM_MAY_lab status idl scene sph recording picture)
 
 function(bleedsim_layer name)

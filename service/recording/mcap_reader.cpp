@@ -4,22 +4,20 @@
 #include <array>
 #include <fmt/core.h>
 #include <utility>
-#include <zstd.h>
 
 namespace bleedsim::recording::mcap {
 
-void McapReader::FreeContext::operator()(ZSTD_DCtx_s* context) const { ZSTD_freeDCtx(context); }
-
-McapReader::McapReader(FileSource file, FileIndex index)
-    : file_{std::move(file)}, index_{std::move(index)}, context_{ZSTD_createDCtx()} {}
+McapReader::McapReader(FileSource file, FileIndex index, Decompressor decompressor)
+    : file_{std::move(file)}, index_{std::move(index)}, decompressor_{std::move(decompressor)} {}
 
 Result<McapReader> McapReader::open(const std::filesystem::path& path, Damage damage) {
   Result<FileSource> file = FileSource::open(path);
   if (!file) return file.status();
   Result<FileIndex> index = readIndex(*file, damage);
   if (!index) return index.status();
-  McapReader reader{std::move(*file), std::move(*index)};
-  if (reader.context_ == nullptr) return ::bleedsim::Status{StatusCode::internal, "no memory for the zstd decompressor"};
+  Result<Decompressor> decompressor = Decompressor::create();
+  if (!decompressor) return decompressor.status();
+  McapReader reader{std::move(*file), std::move(*index), std::move(*decompressor)};
   if (reader.index_.truncated) reader.dropUnfinishedChunk();
   return reader;
 }
@@ -39,28 +37,10 @@ void McapReader::dropUnfinishedChunk() {
 }
 
 ::bleedsim::Status McapReader::decompress(const ChunkIndex& chunk, ByteView compressed) {
-  if (chunk.compression.empty()) {
-    if (compressed.size() != chunk.uncompressed_bytes) return damaged(chunk.offset, "an uncompressed chunk has two sizes");
-    chunk_.assign(compressed.begin(), compressed.end());
-    return {};
-  }
-  if (chunk.compression != "zstd") {
-    return {StatusCode::unsupported,
-            fmt::format("'{}' is compressed with '{:.16}'; only zstd recordings are read", file_.name(), chunk.compression)};
-  }
-  // The size is known before memory is taken: a frame that claims another one is refused.
-  const unsigned long long claimed = ZSTD_getFrameContentSize(compressed.data(), compressed.size());
-  if (claimed != ZSTD_CONTENTSIZE_UNKNOWN && claimed != chunk.uncompressed_bytes) {
-    return damaged(chunk.offset, "a chunk's size contradicts its compressed data");
-  }
-  chunk_.resize(static_cast<std::size_t>(chunk.uncompressed_bytes));
-  const std::size_t size =
-      ZSTD_decompressDCtx(context_.get(), chunk_.data(), chunk_.size(), compressed.data(), compressed.size());
-  if (ZSTD_isError(size) != 0U)
-    return damaged(chunk.offset, fmt::format("a chunk does not decompress ({})", ZSTD_getErrorName(size)));
-  if (size != chunk_.size())
-    return damaged(chunk.offset, fmt::format("a chunk gives {} bytes instead of {}", size, chunk_.size()));
-  return {};
+  const auto size = static_cast<std::size_t>(chunk.uncompressed_bytes);
+  const ::bleedsim::Status status = decompressor_.decompress(chunk.compression, compressed, size, chunk_);
+  if (status.code() == StatusCode::data_loss) return damaged(chunk.offset, status.message());
+  return status.ok() ? status : ::bleedsim::Status{status.code(), fmt::format("'{}': {}", file_.name(), status.message())};
 }
 
 ::bleedsim::Status McapReader::loadChunk(std::size_t chunk) {

@@ -4,16 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <vector>
 
+#include "service/recording/compression.h"
 #include "service/recording/file_source.h"
 #include "service/recording/mcap_index.h"
 #include "service/recording/mcap_records.h"
 #include "service/status/status.h"
-
-struct ZSTD_DCtx_s;
 
 namespace bleedsim::recording::mcap {
 
@@ -48,18 +46,14 @@ class McapReader {
   ::bleedsim::Status verify() const;
 
  private:
-  struct FreeContext {
-    void operator()(ZSTD_DCtx_s* context) const;
-  };
-
-  McapReader(FileSource file, FileIndex index);
+  McapReader(FileSource file, FileIndex index, Decompressor decompressor);
   ::bleedsim::Status damaged(std::uint64_t offset, const std::string& what) const;
   ::bleedsim::Status decompress(const ChunkIndex& chunk, ByteView compressed);
   void dropUnfinishedChunk();
 
   FileSource file_;
   FileIndex index_;
-  std::unique_ptr<ZSTD_DCtx_s, FreeContext> context_;
+  Decompressor decompressor_;
   std::vector<std::byte> record_;
   std::vector<std::byte> chunk_;
   std::optional<std::size_t> loaded_;

@@ -3,28 +3,27 @@
 #include <algorithm>
 #include <fmt/core.h>
 #include <utility>
-#include <zstd.h>
 
 namespace bleedsim::recording::mcap {
 
-void McapWriter::FreeContext::operator()(ZSTD_CCtx_s* context) const { ZSTD_freeCCtx(context); }
-
 Result<McapWriter> McapWriter::open(const std::filesystem::path& path, const ChunkOptions& options, std::vector<Schema> schemas,
                                     std::vector<Channel> channels) {
+  Result<Compressor> compressor = Compressor::create(options.compression, options.zstd_level);
+  if (!compressor) return compressor.status();
   Result<WriteQueue> sink = WriteQueue::open(path, options.queue_bytes);
   if (!sink) return sink.status();
-  McapWriter writer{std::move(*sink), options, std::move(schemas), std::move(channels)};
-  if (writer.context_ == nullptr) return ::bleedsim::Status{StatusCode::internal, "no memory for the zstd compressor"};
+  McapWriter writer{std::move(*sink), options, std::move(*compressor), std::move(schemas), std::move(channels)};
   if (::bleedsim::Status status = writer.begin(); !status) return status;
   return writer;
 }
 
-McapWriter::McapWriter(WriteQueue sink, const ChunkOptions& options, std::vector<Schema> schemas, std::vector<Channel> channels)
+McapWriter::McapWriter(WriteQueue sink, const ChunkOptions& options, Compressor compressor, std::vector<Schema> schemas,
+                       std::vector<Channel> channels)
     : sink_{std::move(sink)},
       options_{options},
+      compressor_{std::move(compressor)},
       schemas_{std::move(schemas)},
-      channels_{std::move(channels)},
-      context_{ZSTD_createCCtx()} {
+      channels_{std::move(channels)} {
   statistics_.schemas = static_cast<std::uint16_t>(schemas_.size());
   statistics_.channels = static_cast<std::uint32_t>(channels_.size());
   for (const Channel& channel : channels_) sequences_[channel.id] = 0;
@@ -80,35 +79,24 @@ McapWriter::McapWriter(WriteQueue sink, const ChunkOptions& options, std::vector
   return sink_.status();
 }
 
-::bleedsim::Status McapWriter::compress() {
-  compressed_.resize(ZSTD_compressBound(chunk_.size()));
-  const std::size_t size = ZSTD_compressCCtx(context_.get(), compressed_.data(), compressed_.size(), chunk_.data(), chunk_.size(),
-                                             options_.compression_level);
-  if (ZSTD_isError(size) != 0U) {
-    return {StatusCode::internal,
-            fmt::format("zstd cannot compress a chunk of {} bytes: {}", chunk_.size(), ZSTD_getErrorName(size))};
-  }
-  compressed_.resize(size);
-  return {};
-}
-
 ::bleedsim::Status McapWriter::endChunk() {
   // Viewers take the start time 0 of an empty chunk for 1970.
   if (chunk_.empty()) return {};
-  if (::bleedsim::Status status = compress(); !status) return status;
+  const Result<std::string_view> compressed = compressor_.compress(chunk_);
+  if (!compressed) return compressed.status();
 
   ChunkIndex index;
   index.first_time_ns = chunk_first_ns_;
   index.last_time_ns = chunk_last_ns_;
   index.offset = sink_.bytes();
-  index.compression = "zstd";
-  index.compressed_bytes = compressed_.size();
+  index.compression = chunkName(compressor_.compression());
+  index.compressed_bytes = compressed->size();
   index.uncompressed_bytes = chunk_.size();
   buffer_.clear();
   appendRecord(
       buffer_,
-      ChunkHead{chunk_first_ns_, chunk_last_ns_, chunk_.size(), crc32(0, bytesOf(chunk_)), index.compression, compressed_.size()},
-      compressed_);
+      ChunkHead{chunk_first_ns_, chunk_last_ns_, chunk_.size(), crc32(0, bytesOf(chunk_)), index.compression, compressed->size()},
+      *compressed);
   index.length = buffer_.size();
   for (auto& [channel, messages] : indexes_) {
     index.message_index_offsets[channel] = index.offset + buffer_.size();

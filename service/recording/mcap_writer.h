@@ -1,4 +1,4 @@
-// Writes an MCAP file: channels first, then zstd chunks with their message indexes, then the summary. https://mcap.dev/spec
+// Writes an MCAP file: channels first, then compressed chunks with their message indexes, then the summary. https://mcap.dev/spec
 #pragma once
 
 #include <chrono>
@@ -6,21 +6,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "service/recording/compression.h"
 #include "service/recording/mcap_records.h"
 #include "service/recording/write_queue.h"
 #include "service/status/status.h"
 
-struct ZSTD_CCtx_s;
-
 namespace bleedsim::recording::mcap {
 
 struct ChunkOptions {
-  int compression_level = 1;  ///< zstd
+  Compression compression = Compression::zstd;
+  int zstd_level = 1;
   std::size_t bytes = std::size_t{1} << 20;
   std::chrono::milliseconds age{800};
   std::size_t queue_bytes = std::size_t{64} << 20;  ///< that may wait for the disk
@@ -54,27 +53,22 @@ class McapWriter {
   std::uint64_t bytes() const { return sink_.bytes(); }
 
  private:
-  struct FreeContext {
-    void operator()(ZSTD_CCtx_s* context) const;
-  };
-
-  McapWriter(WriteQueue sink, const ChunkOptions& options, std::vector<Schema> schemas, std::vector<Channel> channels);
+  McapWriter(WriteQueue sink, const ChunkOptions& options, Compressor compressor, std::vector<Schema> schemas,
+             std::vector<Channel> channels);
   ::bleedsim::Status begin();
   bool chunkIsOld(std::chrono::steady_clock::time_point now) const {
     return !chunk_.empty() && now - chunk_since_ >= options_.age;
   }
   ::bleedsim::Status endChunk();
-  ::bleedsim::Status compress();
   std::string summary(std::uint64_t start) const;
 
   WriteQueue sink_;
   ChunkOptions options_;
+  Compressor compressor_;
   std::vector<Schema> schemas_;
   std::vector<Channel> channels_;
-  std::unique_ptr<ZSTD_CCtx_s, FreeContext> context_;
 
-  std::string chunk_;       ///< records of the open chunk
-  std::string compressed_;  ///< kept for its memory
+  std::string chunk_;  ///< records of the open chunk
   std::string buffer_;
   std::chrono::steady_clock::time_point chunk_since_;
   std::uint64_t chunk_first_ns_ = 0;

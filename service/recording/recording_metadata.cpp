@@ -38,6 +38,7 @@ mcap::Metadata toMetadata(const RecordingFigures& figures) {
   record.entries["journal_gaps"] = std::to_string(figures.journal_gaps);
   record.entries["replayable"] = figures.not_replayable.empty() ? "true" : "false";
   record.entries["reason"] = figures.not_replayable;
+  for (const auto& [name, error] : figures.max_errors) record.entries["max_error_" + name] = fmt::format("{}", error);
   return record;
 }
 

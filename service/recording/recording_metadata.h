@@ -16,6 +16,8 @@ inline constexpr const char* kRecordingMetadata = "bleedsim.recording";
 inline constexpr const char* kNotesMetadata = "bleedsim.notes";
 /// A note: at most so many frames per simulated second were to be recorded.
 inline constexpr const char* kRateNote = "rate_hz";
+/// A note: frames hold numbers of so many bits.
+inline constexpr const char* kQuantizeNote = "quantize_bits";
 
 struct RecordingFigures {
   std::uint64_t frames = 0;
@@ -26,8 +28,9 @@ struct RecordingFigures {
   std::uint64_t refused = 0;          ///< samples that could not be stored
   std::uint64_t journal_entries = 0;
   std::uint64_t journal_gaps = 0;
-  std::string not_replayable;                 ///< why; empty when it is
-  std::map<std::string, std::string> origin;  ///< session_name, scene_name, version, build_id, simd_target, precision
+  std::string not_replayable;                  ///< why; empty when it is
+  std::map<std::string, double> max_errors{};  ///< of quantised attributes, by name, in their units
+  std::map<std::string, std::string> origin;   ///< session_name, scene_name, version, build_id, simd_target, precision
 };
 
 mcap::Metadata toMetadata(const RecordingFigures& figures);

@@ -1,5 +1,6 @@
 #include "service/recording/recording_reader.h"
 
+#include <algorithm>
 #include <fmt/core.h>
 #include <limits>
 #include <optional>
@@ -45,6 +46,7 @@ struct RecordingReader::Impl {
   explicit Impl(mcap::McapReader reader) : file{std::move(reader)} {}
 
   ::bleedsim::Status indexFrames();
+  bool hasSelected(const mcap::ChunkIndex& entry) const;
 
   mcap::McapReader file;
   std::map<std::uint16_t, Topic> topics;  ///< by channel id
@@ -69,6 +71,15 @@ struct RecordingReader::Impl {
   return {};
 }
 
+/// False: the file's index says that there is nothing to read in a chunk.
+bool RecordingReader::Impl::hasSelected(const mcap::ChunkIndex& entry) const {
+  // A cut may fall between a chunk and its message indexes.
+  if (file.index().truncated || entry.message_index_offsets.empty()) return true;
+  return std::any_of(topics.begin(), topics.end(), [&](const auto& topic) {
+    return selected.contains(topic.second) && entry.message_index_offsets.contains(topic.first);
+  });
+}
+
 Result<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
   Result<mcap::McapReader> file = mcap::McapReader::open(path);
   if (!file) return file.status();
@@ -87,6 +98,11 @@ RecordingReader::~RecordingReader() = default;
 bool RecordingReader::truncated() const { return impl_->file.index().truncated; }
 const std::string& RecordingReader::truncationReason() const { return impl_->file.index().truncation_reason; }
 std::uint64_t RecordingReader::fileBytes() const { return impl_->file.fileBytes(); }
+std::string RecordingReader::compression() const {
+  const std::vector<mcap::ChunkIndex>& chunks = impl_->file.index().chunks;
+  if (chunks.empty()) return {};
+  return chunks.front().compression.empty() ? std::string{nameOf(Compression::none)} : chunks.front().compression;
+}
 const std::map<std::string, std::map<std::string, std::string>>& RecordingReader::metadata() const {
   return impl_->file.index().metadata;
 }
@@ -94,6 +110,10 @@ const std::map<std::string, std::map<std::string, std::string>>& RecordingReader
 
 Result<bool> RecordingReader::next(RecordedMessage& out) {
   while (impl_->chunk < impl_->file.index().chunks.size()) {
+    if (impl_->position == 0 && !impl_->hasSelected(impl_->file.index().chunks[impl_->chunk])) {
+      ++impl_->chunk;
+      continue;
+    }
     if (::bleedsim::Status status = impl_->file.loadChunk(impl_->chunk); !status) return status;
     mcap::Message message;
     Result<bool> more = impl_->file.next(impl_->position, message);

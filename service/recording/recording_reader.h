@@ -48,6 +48,8 @@ class RecordingReader {
   const std::string& truncationReason() const;
 
   std::uint64_t fileBytes() const;
+  /// Of the first chunk: none, lz4 or zstd; empty when there is none.
+  std::string compression() const;
   /// Metadata records of the file by name; empty when the writer never came to write them.
   const std::map<std::string, std::map<std::string, std::string>>& metadata() const;
 

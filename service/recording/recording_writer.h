@@ -10,16 +10,20 @@
 #include <string>
 
 #include "idl/bleed.h"
+#include "service/recording/compression.h"
 #include "service/status/status.h"
 
 namespace bleedsim::recording {
 
 struct WriterOptions {
-  int compression_level = 1;                       ///< zstd, 1 to 19
+  Compression compression = Compression::zstd;
+  int zstd_level = 1;                              ///< 1 to 19
   std::size_t chunk_bytes = std::size_t{1} << 20;  ///< uncompressed size at which a chunk is written, 1 KiB to 64 MiB
   /// After which a chunk is written, so that a crash costs little: with tick() each 100 ms, less than a second.
   std::chrono::milliseconds chunk_age{800};
   std::size_t queue_bytes = std::size_t{64} << 20;  ///< that may wait for the disk, 64 KiB to 4 GiB
+  bool quantize16 = false;                          ///< frames as quantize16() makes them; noted in the file
+  bool point_cloud = false;                         ///< each frame as a foxglove.PointCloud as well, unquantised
   std::map<std::string, std::string> notes;         ///< metadata "bleedsim.notes" at the file's start; at most 64 entries
 };
 
@@ -51,8 +55,9 @@ class RecordingWriter {
 
   /// Stores a sample. `log_time_ns` is CLOCK_REALTIME of the arrival; times that run backwards are raised to the one before.
   /// invalid_argument or unsupported: the sample contradicts itself (a length without data, text that is not UTF-8, an unknown
-  /// union case); it is left out and counted, the recording goes on. io: the disk failed (full, quota, ...) or is so slow that
-  /// `queue_bytes` wait for it; every later call gives the same answer, and what was written until then stays readable.
+  /// union case, blocks that do not fit the payload where they are quantised or drawn); it is left out and counted, the recording
+  /// goes on. io: the disk failed (full, quota, ...) or is so slow that `queue_bytes` wait for it; every later call gives the
+  /// same answer, and what was written until then stays readable.
   ::bleedsim::Status append(const bleed_v1_Frame& sample, std::uint64_t log_time_ns = now());
   ::bleedsim::Status append(const bleed_v1_FrameStats& sample, std::uint64_t log_time_ns = now());
   ::bleedsim::Status append(const bleed_v1_Status& sample, std::uint64_t log_time_ns = now());

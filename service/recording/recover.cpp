@@ -4,13 +4,13 @@
 #include <limits>
 #include <map>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
 #include "service/recording/channel_map.h"
 #include "service/recording/mcap_reader.h"
 #include "service/recording/mcap_writer.h"
+#include "service/recording/part_file.h"
 #include "service/recording/recording_metadata.h"
 #include "service/recording/summary_collector.h"
 
@@ -18,32 +18,6 @@ namespace bleedsim::recording {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The new file grows under another name: what stood under its own is lost only when the new one is whole.
-class PartFile {
- public:
-  explicit PartFile(const fs::path& target) : target_{target}, part_{target} { part_ += fmt::format(".part{}", ::getpid()); }
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
-  ~PartFile() {
-    std::error_code ignored;
-    if (!done_) fs::remove(part_, ignored);
-  }
-
-  const fs::path& path() const { return part_; }
-  ::bleedsim::Status keep() {
-    std::error_code error;
-    fs::rename(part_, target_, error);
-    if (error) return {StatusCode::io, fmt::format("cannot create '{}': {}", target_.string(), error.message())};
-    done_ = true;
-    return {};
-  }
-
- private:
-  fs::path target_;
-  fs::path part_;
-  bool done_ = false;
-};
 
 class Copy {
  public:
@@ -85,12 +59,14 @@ class Copy {
     Result<bool> more = from_.next(position, message);
     if (!more || !*more) return more.status();
     const auto topic = topics_.find(message.head.channel_id);
-    if (topic == topics_.end()) continue;
-    if (::bleedsim::Status added = collector_.add(
-            {topic->second, message.head.sequence, message.head.log_time_ns, message.head.publish_time_ns, message.data});
-        !added) {
-      return added;
+    if (topic != topics_.end()) {
+      if (::bleedsim::Status added = collector_.add(
+              {topic->second, message.head.sequence, message.head.log_time_ns, message.head.publish_time_ns, message.data});
+          !added) {
+        return added;
+      }
     }
+    if (!from_.index().channels.contains(message.head.channel_id)) continue;
     const std::string_view data{reinterpret_cast<const char*>(message.data.data()), message.data.size()};
     if (::bleedsim::Status written =
             to_.write(message.head.channel_id, message.head.log_time_ns, message.head.publish_time_ns, data);
@@ -115,6 +91,7 @@ class Copy {
                            .journal_entries = s.journal_entries,
                            .journal_gaps = s.journal_gaps,
                            .not_replayable = s.reason,
+                           .max_errors = s.max_errors,
                            .origin = {}};
   if (s.scenes > 0) {
     figures.origin = {{"session_name", s.session_name}, {"scene_name", s.scene_name},   {"version", s.version},
@@ -151,14 +128,7 @@ Result<RecoverReport> recover(const fs::path& from, const fs::path& to, const Re
   if (!file) return file.status();
   Result<std::map<std::uint16_t, Topic>> topics = topicsOf(file->index());
   if (!topics) return topics.status();
-  if (std::error_code error; fs::equivalent(from, to, error)) {
-    return ::bleedsim::Status{StatusCode::invalid_argument,
-                              fmt::format("'{}' is the file to recover: write into another one", to.string())};
-  }
-  if (std::error_code error; fs::exists(to, error) && !fs::is_regular_file(to, error)) {
-    return ::bleedsim::Status{StatusCode::invalid_argument,
-                              fmt::format("'{}' is no regular file: give the name of a file to write", to.string())};
-  }
+  if (::bleedsim::Status status = checkTarget(from, to); !status) return status;
   if (file->index().chunks.empty()) {
     return ::bleedsim::Status{StatusCode::data_loss, fmt::format("'{}' holds no complete chunk: there is nothing to recover ({})",
                                                                  from.string(), file->index().truncation_reason)};

@@ -19,11 +19,15 @@ void collect(const google::protobuf::FileDescriptor& file, std::set<std::string>
 
 }  // namespace
 
-std::vector<mcap::Schema> recordingSchemas() {
+std::string descriptorSetOf(const google::protobuf::FileDescriptor& file) {
   google::protobuf::FileDescriptorSet set;
   std::set<std::string> seen;
-  collect(*Frame::descriptor()->file(), seen, set);
-  const std::string data = set.SerializeAsString();
+  collect(file, seen, set);
+  return set.SerializeAsString();
+}
+
+std::vector<mcap::Schema> recordingSchemas() {
+  const std::string data = descriptorSetOf(*Frame::descriptor()->file());
   std::vector<mcap::Schema> out;
   for (const TopicInfo& info : kTopics) out.push_back({channelIdOf(info.topic), info.schema, "protobuf", data});
   return out;

@@ -23,6 +23,7 @@ Result<RecordingSummary> summarize(RecordingReader& reader) {
   RecordingSummary out = collector.finish(readKnowledge(reader.metadata()));
   out.truncated = reader.truncated();
   out.truncation_reason = reader.truncationReason();
+  out.compression = reader.compression();
   out.file_bytes = reader.fileBytes();
   return out;
 }

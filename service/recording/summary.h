@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,7 +41,10 @@ struct RecordingSummary {
   std::string build_id;  ///< of the daemon
   std::string simd_target;
   std::string precision;
+  std::string compression;  ///< of the chunks: none, lz4 or zstd; empty when there are none
   std::uint64_t file_bytes = 0;
+  /// Largest errors of 16-bit attributes, by name, in their units; empty: every value is as it was published.
+  std::map<std::string, double> max_errors;
   /// Of the last statistics: the solver's since its epoch began, the service's since its start.
   std::vector<std::pair<std::string, std::uint64_t>> fault_counters;
   /// First and last seq of each run of missing frames, the first 1000 of them; empty where frames were skipped.

@@ -35,6 +35,7 @@ namespace bleedsim::recording {
   last_epoch_ = epoch;
   frames_.add(epoch.first, epoch.second, frame_.seq());
   replay_.addFrame(epoch.first, epoch.second);
+  for (const Attribute& attribute : frame_.attributes()) errors_.add(attribute);
   const auto [span, fresh] =
       spans_.try_emplace(epoch, FrameSpan{frame_.seq(), frame_.seq(), frame_.sim_time_s(), frame_.sim_time_s()});
   if (!fresh) {
@@ -127,6 +128,7 @@ RecordingSummary SummaryCollector::finish(const WriterKnowledge& knowledge) {
   out_.wall_duration_s = static_cast<double>(last_time_ns_ - first_time_ns_) * 1e-9;
   if (out_.frame_stats > 0) out_.mean_real_time_factor = real_time_factors_ / static_cast<double>(out_.frame_stats);
   addLedgers();
+  out_.max_errors = errors_.byName();
   out_.reason = replay_.reason();
   out_.replayable = out_.reason.empty();
   apply(knowledge);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "service/recording/quantize.h"
 #include "service/recording/recording_metadata.h"
 #include "service/recording/recording_reader.h"
 #include "service/recording/seq_tracker.h"
@@ -43,6 +44,7 @@ class SummaryCollector {
   RecordingSummary out_;
   FrameTracker frames_;
   ReplayCheck replay_;
+  MaxErrors errors_;
   std::map<Epoch, FrameSpan> spans_;
   std::vector<std::pair<Epoch, LedgerPoint>> ledger_;
   Epoch last_epoch_;

@@ -109,7 +109,7 @@ TEST_F(RecordLossTest, WhatCannotBeRecoveredIsNamed) {
   ASSERT_EQ(recording.wait(), 0) << recording.output();
   const test::Finished same = bleedctl({"recover", path("a.mcap"), "-o", path("a.mcap")});
   EXPECT_EQ(same.code, 2);
-  EXPECT_THAT(same.output, HasSubstr("is the file to recover"));
+  EXPECT_THAT(same.output, HasSubstr("is the recording itself"));
   EXPECT_EQ(number(json({"info", path("a.mcap")}), "frames"), 1.0);
 }
 

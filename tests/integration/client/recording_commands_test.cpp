@@ -1,4 +1,5 @@
-// record, info and export as processes, against a real bleedd and against damaged files.
+// record, info, export and render as processes, against a real bleedd and against damaged files.
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fmt/core.h>
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::uint32_t kDomain = 70;
 constexpr std::uint64_t kFrameBytes = 3 * sizeof(float) + sizeof(std::uint32_t) + 3 * sizeof(float);
@@ -143,7 +145,7 @@ TEST_F(RecordingCommandsTest, WhatWasRecordedIsDescribedExportedAndReadBackEqual
 
   const Json exported = parseJson(bleedctl({"export", file, "-o", path("vtk"), "--json"}, false).output);
   EXPECT_EQ(number(exported, "frames"), frames);
-  const std::string collection = bytesOf(text(exported, "collection"));
+  const std::string collection = bytesOf(text(exported, "output"));
   std::size_t files = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator{path("vtk")}) {
     if (entry.path().extension() != ".vtp") continue;
@@ -153,6 +155,111 @@ TEST_F(RecordingCommandsTest, WhatWasRecordedIsDescribedExportedAndReadBackEqual
   EXPECT_EQ(static_cast<double>(files), frames);
   const std::string last = bytesOf(path(fmt::format("vtk/frame_{:06}.vtp", files - 1)));
   EXPECT_THAT(last, HasSubstr(fmt::format(R"(NumberOfPoints="{}")", number(figures, "last_particles"))));
+}
+
+TEST_F(RecordingCommandsTest, SixteenBitsAndPointsAreRecordedAndSaid) {
+  const std::string file = path("small.mcap");
+  ASSERT_EQ(bleedctl({"record", "-o", file, "--frames", "20", "--compress", "lz4", "--quantize", "16", "--pointcloud"}).code, 0);
+  const Json figures = info(file);
+  EXPECT_EQ(number(figures, "frames"), 20.0);
+  EXPECT_EQ(text(figures, "compression"), "lz4");
+  EXPECT_FALSE(member(figures, "bit_exact").bool_value());
+  const Json& errors = member(figures, "max_errors");
+  EXPECT_GT(number(errors, "position"), 0.0);
+  EXPECT_LT(number(errors, "position"), 1e-5);  // m; the scene is 0.2 m wide: half a step is 1.5e-6 m
+  EXPECT_THAT(bleedctl({"info", file}).output, HasSubstr("16 bits, not bit-exact: position within"));
+  EXPECT_TRUE(member(figures, "replayable").bool_value()) << text(figures, "reason");
+  const std::string bytes = bytesOf(file);
+  EXPECT_THAT(bytes, HasSubstr("foxglove.PointCloud"));
+  EXPECT_THAT(bytes, HasSubstr("/bleed/v1/points"));
+
+  const std::string exact = path("exact.mcap");
+  ASSERT_EQ(bleedctl({"record", "-o", exact, "--frames", "5", "--compress", "none"}).code, 0);
+  EXPECT_EQ(text(info(exact), "compression"), "none");
+  EXPECT_TRUE(member(info(exact), "bit_exact").bool_value());
+  EXPECT_THAT(bleedctl({"info", exact}).output, Not(HasSubstr("bit-exact")));
+
+  EXPECT_EQ(bleedctl({"record", "-o", file, "--compress", "gzip"}).code, 2);
+  EXPECT_EQ(bleedctl({"record", "-o", file, "--quantize", "8"}).code, 2);
+}
+
+TEST_F(RecordingCommandsTest, FramesAreExportedInEachFormat) {
+  const std::string file = path("e.mcap");
+  ASSERT_EQ(bleedctl({"record", "-o", file, "--frames", "12"}).code, 0);
+  ASSERT_EQ(bleedctl({"export", file, "--format", "ply", "-o", path("ply"), "--every", "5"}).code, 0);
+  EXPECT_TRUE(fs::exists(path("ply/frame_000010.ply")));
+  EXPECT_EQ(std::distance(fs::directory_iterator{path("ply")}, {}), 3);
+  ASSERT_EQ(bleedctl({"export", file, "--format", "csv", "-o", path("e.csv"), "--frame", "11"}).code, 0);
+  const std::string table = bytesOf(path("e.csv"));
+  EXPECT_TRUE(table.starts_with("frame,epoch,time_s,id,x,y,z,vx,vy,vz")) << table.substr(0, 80);
+  EXPECT_EQ(static_cast<double>(std::count(table.begin(), table.end(), '\n')), 1.0 + number(info(file), "last_particles"));
+  ASSERT_EQ(bleedctl({"export", file, "--format", "mcap-pointcloud", "-o", path("p.mcap")}).code, 0);
+  EXPECT_THAT(bytesOf(path("p.mcap")), HasSubstr("foxglove.PointCloud"));
+  EXPECT_EQ(number(info(path("p.mcap")), "frames"), 0.0);
+
+  struct Wrong {
+    std::vector<std::string> arguments;
+    int code;
+    const char* says;
+  };
+  write(path("taken"), "a file");
+  for (const Wrong& wrong :
+       std::vector<Wrong>{{{"--format", "abc", "-o", path("x")}, 2, "vtp, ply, csv, mcap-pointcloud"},
+                          {{"--frame", "12", "-o", path("x")}, 2, "there is no frame 12: the recording has 12, numbered 0 to 11"},
+                          {{"--frame", "-1", "-o", path("x")}, 2, "--frame"},
+                          {{"--every", "0", "-o", path("x")}, 2, "--every"},
+                          {{"--every", "2", "--frame", "1", "-o", path("x")}, 2, "--every"},
+                          {{"--format", "csv", "-o", file}, 2, "is the recording itself"},
+                          {{"--format", "csv", "-o", folder_.string()}, 2, "is no regular file"},
+                          {{"--format", "ply", "-o", path("taken")}, 4, "cannot create directory"},
+                          {{"--format", "mcap-pointcloud", "-o", path("no/such/p.mcap")}, 4, "no/such/p.mcap"}}) {
+    std::vector<std::string> arguments{"export", file};
+    arguments.insert(arguments.end(), wrong.arguments.begin(), wrong.arguments.end());
+    const test::Finished finished = bleedctl(arguments);
+    EXPECT_EQ(finished.code, wrong.code) << finished.output;
+    EXPECT_THAT(finished.output, HasSubstr(wrong.says));
+  }
+  EXPECT_EQ(bytesOf(path("taken")), "a file");
+}
+
+TEST_F(RecordingCommandsTest, FramesAreDrawn) {
+  const std::string file = path("r.mcap");
+  ASSERT_EQ(bleedctl({"record", "-o", file, "--frames", "12"}).code, 0);
+  const auto render = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", file, "--size", "160x120"});
+    return bleedctl(arguments);
+  };
+  const std::string png{"\x89PNG\r\n\x1a\n", 8};
+  ASSERT_EQ(render({"-o", path("last.png")}).code, 0);
+  ASSERT_EQ(render({"-o", path("eleven.png"), "--frame", "11"}).code, 0);
+  ASSERT_EQ(render({"-o", path("front.png"), "--view", "front", "--color-by", "speed", "--look", "spheres"}).code, 0);
+  EXPECT_TRUE(bytesOf(path("last.png")).starts_with(png));
+  EXPECT_EQ(bytesOf(path("last.png")), bytesOf(path("eleven.png"))) << "the last frame is the default";
+  EXPECT_NE(bytesOf(path("last.png")), bytesOf(path("front.png")));
+  ASSERT_EQ(render({"-o", path("pictures"), "--every", "6"}).code, 0);
+  EXPECT_TRUE(fs::exists(path("pictures/frame_000000.png")));
+  EXPECT_TRUE(fs::exists(path("pictures/frame_000006.png")));
+
+  struct Wrong {
+    std::vector<std::string> arguments;
+    int code;
+    const char* says;
+  };
+  for (const Wrong& wrong : std::vector<Wrong>{
+           {{"-o", path("x.png"), "--every", "2"}, 2, "give a folder"},
+           {{"-o", path("x.png"), "--frame", "12"}, 2, "numbered 0 to 11"},
+           {{"-o", path("x.png"), "--view", "below"}, 2, "front, side, top, oblique"},
+           {{"-o", path("x.png"), "--color-by", "platelet"}, 2, "cannot be coloured by 'platelet': there is speed"},
+           {{"-o", path("x.png"), "--look", "oil"}, 2, "--look"},
+           {{"-o", path("no/such/x.png")}, 4, "no/such/x.png"}}) {
+    const test::Finished finished = render(wrong.arguments);
+    EXPECT_EQ(finished.code, wrong.code) << finished.output;
+    EXPECT_THAT(finished.output, HasSubstr(wrong.says));
+  }
+  for (const char* size : {"0x10", "big", "160", "160x", "160x120x3", "20000x20000"}) {
+    EXPECT_EQ(bleedctl({"render", file, "-o", path("x.png"), "--size", size}).code, 2) << size;
+  }
+  EXPECT_FALSE(fs::exists(path("x.png")));
 }
 
 TEST_F(RecordingCommandsTest, AnInterruptClosesTheFileProperly) {
@@ -257,12 +364,22 @@ TEST_F(RecordingCommandsTest, DamagedFilesAreNamedAndReadAsFarAsTheyGo) {
   EXPECT_TRUE(member(cut, "truncated").bool_value());
   EXPECT_EQ(number(cut, "frames"), 20.0);
   EXPECT_THAT(bleedctl({"info", path("cut.mcap")}).output, HasSubstr("truncated"));
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"export", path("cut.mcap"), "-o", path("cut")},
+        std::vector<std::string>{"render", path("cut.mcap"), "-o", path("cut.png"), "--size", "160x120"}}) {
+    const test::Finished finished = bleedctl(arguments);
+    EXPECT_EQ(finished.code, 0) << finished.output;
+    EXPECT_THAT(finished.output, HasSubstr("was cut off"));
+    EXPECT_THAT(finished.output, HasSubstr("bleedctl recover"));
+  }
 
   write(path("other.mcap"), "not a recording at all, but long enough to be looked at");
   write(path("empty.mcap"), "");
   for (const char* name : {"other.mcap", "empty.mcap", "missing.mcap"}) {
     for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"info", path(name)}, std::vector<std::string>{"export", path(name), "-o", path("vtk")}}) {
+         {std::vector<std::string>{"info", path(name)}, std::vector<std::string>{"export", path(name), "-o", path("vtk")},
+          std::vector<std::string>{"export", path(name), "-o", path("x.csv"), "--format", "csv"},
+          std::vector<std::string>{"render", path(name), "-o", path("x.png")}}) {
       const test::Finished finished = bleedctl(arguments);
       EXPECT_EQ(finished.code, 4) << arguments.front() << " " << name << ": " << finished.output;
       EXPECT_THAT(finished.output, HasSubstr(name));

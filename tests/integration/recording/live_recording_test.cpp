@@ -219,12 +219,10 @@ TEST_F(LiveRecording, ExportsTheSameBytes) {
   for (std::uint64_t seq = 1; seq <= kFrames; ++seq) recordFrame(frameContent(seq, 1, 50));
   ASSERT_TRUE(recorder().close().ok());
 
-  auto reader = rec::RecordingReader::open(file());
-  ASSERT_TRUE(reader.ok()) << reader.status().message();
-  const auto report = rec::exportVtp(*reader, folder() / "vtp");
+  const auto report = rec::exportRecording(file(), rec::ExportFormat::vtp, folder() / "vtp");
   ASSERT_TRUE(report.ok()) << report.status().message();
   EXPECT_EQ(report->frames, kFrames);
-  EXPECT_TRUE(std::filesystem::exists(report->collection));
+  EXPECT_TRUE(std::filesystem::exists(report->output));
   for (std::uint64_t seq = 1; seq <= kFrames; ++seq) {
     std::ifstream in{folder() / "vtp" / fmt::format("frame_{:06}.vtp", seq - 1), std::ios::binary};
     ASSERT_TRUE(in.good());

@@ -27,6 +27,7 @@ const std::vector<LibraryRule>& libraryRules() {
       {"CLI/", {"daemon", "client", "lab"}},
       {"nlohmann/", {"lab"}},
       {"fmt/", {"scene", "transport", "dds", "recording", "daemon", "client", "lab"}},
+      {"lz4", {"recording"}},
       {"zstd", {"recording"}},
       {"zlib", {"recording", "client"}},
       {"png", {"picture"}},

@@ -58,6 +58,12 @@ TEST(CommandLine, AnswersWrongUseWithCodeTwo) {
   EXPECT_EQ(run({"wound", "add", "--at", "0,0,0", "--radius-mm", "nan", "--flow-ml-per-s", "1"}), 2);
   EXPECT_EQ(run({"wound", "set", "4"}), 2);
   EXPECT_EQ(run({"pace", "fast"}), 2);
+  EXPECT_EQ(run({"record", "-o", "a.mcap", "--compress", "gzip"}), 2);
+  EXPECT_EQ(run({"record", "-o", "a.mcap", "--quantize", "12"}), 2);
+  EXPECT_EQ(run({"export", "a.mcap"}), 2);
+  EXPECT_EQ(run({"export", "a.mcap", "-o", "b", "--every", "0"}), 2);
+  EXPECT_EQ(run({"export", "a.mcap", "-o", "b", "--format", "obj"}), 2);
+  EXPECT_EQ(run({"render", "a.mcap", "-o", "b.png", "--size", "big"}), 2);
   EXPECT_EQ(run({"pace", "-1"}), 2);
   EXPECT_EQ(run({"pace", "1001"}), 2);
   EXPECT_EQ(run({"pace", "0.00001"}), 2);

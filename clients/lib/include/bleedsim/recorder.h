@@ -18,6 +18,17 @@ struct RecordingLimits {
   std::optional<double> rate_hz{};        ///< at most so many frames per simulated second
 };
 
+enum class Compression { none, lz4, zstd };
+
+/// How frames are stored. Everything else is always stored as it came.
+struct RecordingFormat {
+  Compression compression = Compression::zstd;
+  /// Numbers of frames in 16 bits, over the range of each attribute in each frame; ids stay exact. The file states the error.
+  bool quantize16 = false;
+  /// Each frame once more as a foxglove.PointCloud, which Foxglove and Lichtblick draw.
+  bool point_cloud = false;
+};
+
 struct RecordingProgress {
   std::uint64_t frames = 0;
   std::uint64_t gaps = 0;                      ///< frames lost on the way
@@ -42,7 +53,7 @@ class Recorder {
   /// The session has to exist: see Client::find. Of several daemons that the client knows under the name, the one that started
   /// last is recorded. io: the file cannot be created; unavailable: the middleware refused.
   static Result<Recorder> start(Client& client, const std::string& session, const std::string& path,
-                                const RecordingLimits& limits);
+                                const RecordingLimits& limits, const RecordingFormat& format = {});
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   /// Closes the file; call close() to learn whether that worked.
