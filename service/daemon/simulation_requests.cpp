@@ -225,7 +225,8 @@ void Simulation::send(dds::Reply reply) {
   }
   if (!channels_.replies.tryPush(std::move(reply))) {
     channels_.counters.add(ServiceCounter::replies_lost);
-    channels_.reply_cache.finish(reply);  // for the client that sends its request again
+    // For the client that sends its request again. NOLINTNEXTLINE(bugprone-use-after-move): a refused value is not moved from
+    channels_.reply_cache.finish(reply);
   }
   channels_.publisher.notify();
 }

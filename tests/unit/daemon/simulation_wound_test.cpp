@@ -147,8 +147,7 @@ TEST_F(WoundTest, KeepsRoomForTheRepliesOfWhatWaits) {
   for (int i = 0; i < 64; ++i) push(disc(0.0005));
   tick();
   dds::Reply other;
-  while (channels_.replies.tryPush(dds::Reply{other}, Channels::kRepliesOfSimulation)) {
-  }
+  while (channels_.replies.tryPush(dds::Reply{other}, Channels::kRepliesOfSimulation)) {}
   push(dds::Ping{});
   for (int i = 0; i < 1'000'000 && simulation_->world().wounds().size() < 64; ++i) {
     tick();
