@@ -104,7 +104,7 @@ void VersionFixture::askForTheUnknown(const std::string& session, std::uint32_t 
   test::ChildProcess daemon{daemonCommand(session)};
   Probe probe{domain(), session};
   const bleed_v1_Reply reply = probe.ask(kind, fill);
-  EXPECT_EQ(reply.code, static_cast<std::uint32_t>(bleed_v1_REPLY_UNSUPPORTED)) << reply.reason;
+  EXPECT_EQ(reply.code, static_cast<std::uint32_t>(bleed_v1_REPLY_UNSUPPORTED)) << reply.reason << daemon.output();
   EXPECT_THAT(reply.reason, HasSubstr(fmt::format("request {} is not known", kind)));
   EXPECT_EQ(probe.ask(bleed_v1_REQUEST_PAUSE).code, kAccepted);
 }

@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"seconds_valueless", {"effects", "a", "--seconds"}, "--seconds: 1 required"},
         BadLine{"output_valueless", {"effects", "a", "-o"}, "--output: 1 required DIR missing"},
         BadLine{"output_twice", {"effects", "a", "-o", "x", "-o", "y"}, "--output: At Most 1 required"},
-        BadLine{"json_value", {"effects", "a", "--json=no"}, "--json"},
+        BadLine{"json_value", {"effects", "a", "--json=no"}, "json was given a disallowed flag override"},
         BadLine{"duration_nan", {"paper", "fig2", "--duration", "nan"}, "'nan' is not a number from 0.001 to 10000"},
         BadLine{"table_seconds_inf", {"paper", "table2", "--seconds", "inf"}, "'inf' is not a number from 0.01 to 3600"},
         BadLine{"counts_valueless", {"paper", "table2", "--counts"}, "--counts"},
