@@ -26,7 +26,7 @@ void addGlobalOptions(CLI::App& app, Context& context) {
   app.add_option("--session", context.session, "Name of the session; default: the first one found")
       ->take_last()
       ->type_name("NAME");
-  app.add_flag("--json", context.json, "Print JSON");
+  app.add_flag("--json", context.json, "Print JSON")->disable_flag_override();
   app.add_option("--timeout", context.timeout_s, "Seconds to wait for the session and for its answer, 0 to 86400")
       ->capture_default_str()
       ->check(finiteIn(0.0, 86400.0))

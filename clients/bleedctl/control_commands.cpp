@@ -46,9 +46,18 @@ Result<std::string> readScene(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     return Status{StatusCode::io, fmt::format("'{}' is a folder: give a .textproto scene in it", path)};
   }
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
+    return Status{StatusCode::io, fmt::format("'{}' is not a regular file: give a .textproto scene", path)};
+  }
   std::ifstream file{path, std::ios::binary};
   if (!file) return Status{StatusCode::io, fmt::format("could not read '{}': check the path and its permissions", path)};
-  std::string text{std::istreambuf_iterator<char>{file}, {}};
+  // One byte beyond the limit tells a file that is too large, even if it grows while it is read.
+  std::string text(kMaxSceneBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMaxSceneBytes) {
+    return Status{StatusCode::io, fmt::format("'{}' is larger than {} bytes: is it a scene?", path, kMaxSceneBytes)};
+  }
   if (text.empty()) return Status{StatusCode::io, fmt::format("'{}' is empty: give a .textproto scene", path)};
   return text;
 }

@@ -98,11 +98,12 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   auto* log_file =
       app.add_option("--log-file", log_file_path, "Append the log to FILE; stderr then shows warnings and errors only")
           ->type_name("FILE");
-  app.add_flag("--check", options.check, "Check the scene, build its world and exit");
+  app.add_flag("--check", options.check, "Check the scene, build its world and exit")->disable_flag_override();
   auto* list = app.add_flag("--list-effects", options.list_effects,
                             "List the effects of this build: equation, source, deviation from the paper; with a scene, also "
-                            "their state in it, decisions of effects.auto and warnings");
-  app.add_flag("--json", options.json, "List the effects as JSON")->needs(list);
+                            "their state in it, decisions of effects.auto and warnings")
+                   ->disable_flag_override();
+  app.add_flag("--json", options.json, "List the effects as JSON")->needs(list)->disable_flag_override();
 
   try {
     app.parse(argc, argv);

@@ -9,6 +9,7 @@
 
 #include "service/lab/app.h"
 #include "service/lab/effect_costs.h"
+#include "service/lab/finite_in.h"
 #include "service/lab/progress.h"
 #include "service/picture/plot.h"
 #include "service/scene/scene.h"
@@ -179,9 +180,9 @@ void addEffectsCommand(CLI::App& app, Context& context) {
   command->add_option("--simd", arguments->simd, "auto, scalar, avx2 or avx512")->capture_default_str();
   command->add_option("--seconds", arguments->options.seconds, "Wall time after which no further turn of measurements begins, s")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 3600.0));
+      ->check(finiteIn(0.01, 3600.0));
   command->add_option("-o,--output", arguments->folder, "Also write a table and a bar chart here")->type_name("DIR");
-  command->add_flag("--json", arguments->json, "Print JSON");
+  command->add_flag("--json", arguments->json, "Print JSON")->disable_flag_override();
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }
 

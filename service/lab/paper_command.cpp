@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "service/lab/app.h"
+#include "service/lab/finite_in.h"
 #include "service/lab/paper/claims.h"
 #include "service/lab/paper/fig5.h"
 #include "service/lab/paper/growth.h"
@@ -127,7 +128,7 @@ void addOptions(CLI::App& command, Arguments& arguments, const Experiment& has) 
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
   command.add_option("--simd", arguments.simd, "auto, scalar, avx2 or avx512")->capture_default_str();
-  command.add_flag("--json", arguments.json, "Print JSON");
+  command.add_flag("--json", arguments.json, "Print JSON")->disable_flag_override();
   if (has.grows) {
     command.add_option("--particles", arguments.particles, "Particles at the end; default those of the scene's horizon_s")
         ->check(CLI::Range(100U, 1000000U));
@@ -139,7 +140,7 @@ void addOptions(CLI::App& command, Arguments& arguments, const Experiment& has) 
   }
   if (has.lasts) {
     command.add_option("--duration", arguments.duration, "Simulated time of the block at rest, s; default the scene's horizon_s")
-        ->check(CLI::Range(1e-3, 1e4));
+        ->check(finiteIn(1e-3, 1e4));
   }
   if (has.counts) {
     command.add_option("--counts", options.counts, "Numbers of particles")
@@ -148,7 +149,7 @@ void addOptions(CLI::App& command, Arguments& arguments, const Experiment& has) 
         ->check(CLI::Range(100U, 200000U));
     command.add_option("--seconds", options.seconds, "Wall time of the measurements, s")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 3600.0));
+        ->check(finiteIn(0.01, 3600.0));
   }
 }
 

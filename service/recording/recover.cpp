@@ -27,7 +27,7 @@ class Copy {
   /// The first error of the new file or of reading the old one; damaged chunks are counted instead.
   ::bleedsim::Status chunk(std::size_t index);
   ::bleedsim::Status metadata(const std::string& name);
-  bool nothingKept() const { return report_.chunks == 0; }
+  bool nothingKept() const { return messages_ == 0; }
   RecoverReport take() { return std::move(report_); }
 
  private:
@@ -38,6 +38,7 @@ class Copy {
   mcap::McapWriter& to_;
   SummaryCollector collector_;
   RecoverReport report_;
+  std::uint64_t messages_ = 0;  // written: a chunk that is whole may hold none of a recording's channels
 };
 
 ::bleedsim::Status Copy::chunk(std::size_t index) {
@@ -73,6 +74,7 @@ class Copy {
         !written) {
       return written;
     }
+    ++messages_;
   }
 }
 
@@ -150,8 +152,10 @@ Result<RecoverReport> recover(const fs::path& from, const fs::path& to, const Re
     }
   }
   if (copy.nothingKept()) {
-    return ::bleedsim::Status{StatusCode::data_loss,
-                              fmt::format("all chunks of '{}' are damaged: there is nothing to recover", from.string())};
+    return ::bleedsim::Status{
+        StatusCode::data_loss,
+        fmt::format("the chunks of '{}' are damaged or hold no messages of a recording: there is nothing to recover",
+                    from.string())};
   }
   if (::bleedsim::Status status = copy.metadata(from.filename().string()); !status) return status;
   if (::bleedsim::Status status = writer->close(); !status) return status;

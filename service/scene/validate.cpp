@@ -57,8 +57,8 @@ bool requireBox(std::string_view path, bool has_lower, const Vec3& lower, bool h
   return finite && problems.count() == before;
 }
 
-int requireCount(std::string_view path, int count, int most, ProblemList& problems) {
-  if (count > most) problems.add(path, fmt::format("{} are given, allowed are at most {}", count, most));
+int requireCount(std::string_view path, int count, int most, ProblemList& problems, std::string_view remedy) {
+  if (count > most) problems.add(path, fmt::format("{} are given, allowed are at most {}; {}", count, most, remedy));
   return std::min(count, most);
 }
 

@@ -27,8 +27,8 @@ void validateTissue(const Scene& scene, ProblemList& problems);
 void validateWounds(const Scene& scene, ProblemList& problems);
 void validateFluidBlocks(const Scene& scene, ProblemList& problems);
 /// What the solver would refuse: wounds that are too fast, overlap or reach out of the domain, outlines that cross themselves,
-/// blocks that the effects cannot work with, what the model does not know. After the others: wounds that have problems already are
-/// left out. `speed_of_sound` (m/s) is that of a world that runs; without it the scene's own.
+/// blocks that the effects cannot work with, what the model does not know. After the others: wounds that have problems already
+/// are left out. `speed_of_sound` (m/s) is that of a world that runs; without it the scene's own.
 void validateWorld(const Scene& scene, std::optional<double> speed_of_sound, ProblemList& problems);
 /// Names and the description.
 void validateText(const Scene& scene, ProblemList& problems);
@@ -43,6 +43,6 @@ void requireDirection(std::string_view path, const Vec3& direction, ProblemList&
 bool requireBox(std::string_view path, bool has_lower, const Vec3& lower, bool has_upper, const Vec3& upper,
                 ProblemList& problems);
 /// A list that is too long; the caller looks at the first `most` members only.
-int requireCount(std::string_view path, int count, int most, ProblemList& problems);
+int requireCount(std::string_view path, int count, int most, ProblemList& problems, std::string_view remedy = "leave some out");
 
 }  // namespace bleedsim::scene

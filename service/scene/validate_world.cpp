@@ -115,11 +115,17 @@ struct TellWound {
   void operator()(const sph::SpeedExcess& excess) const {
     const bool flow = wound().has_flow_ml_per_s();
     const double value = flow ? wound().flow_ml_per_s() : wound().pressure().inlet_pressure_mmhg();
+    // Beyond the fastest design speed, raising it is no way out.
+    const std::string ways =
+        excess.design_speed <= kDesignSpeed.upper
+            ? fmt::format("lower it, widen the patch or raise compressibility.design_speed_m_per_s to {:.6g}",
+                          excess.design_speed)
+            : std::string{"lower it or widen the patch"};
     problems.add(
         path(flow ? "flow_ml_per_s" : "pressure.inlet_pressure_mmhg"),
         fmt::format("value {} is out of range, allowed 0 to {:.6g} ({}): {:.3g} m/s through this patch, the scene is made "
-                    "for {:.3g} m/s; lower it, widen the patch or raise compressibility.design_speed_m_per_s to {:.6g}",
-                    value, excess.most, flow ? "mL/s" : "mmHg", excess.column.speed, excess.column.limit, excess.design_speed));
+                    "for {:.3g} m/s; {}",
+                    value, excess.most, flow ? "mL/s" : "mmHg", excess.column.speed, excess.column.limit, ways));
   }
 };
 

@@ -86,7 +86,7 @@ void validateWound(const std::string& path, const Wound& wound, const Domain& do
 }  // namespace
 
 void validateWounds(const Scene& scene, ProblemList& problems) {
-  const int count = requireCount("wounds", scene.wounds_size(), kMaxSceneWounds, problems);
+  const int count = requireCount("wounds", scene.wounds_size(), kMaxSceneWounds, problems, "open further ones by command");
   if (static_cast<std::uint32_t>(scene.wounds_size()) > scene.commands().max_wounds()) {
     problems.add("wounds", fmt::format("{} are given, but commands.max_wounds is {}; raise it", scene.wounds_size(),
                                        scene.commands().max_wounds()));

@@ -1,5 +1,6 @@
 #include "service/sph/model_rules.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -156,6 +157,19 @@ Status checkModel(const WorldDescription& description) {
     return {first.status.code(), block + first.field + ": " + first.status.message()};
   }
   return {};
+}
+
+double speedOfSound(const WorldDescription& d) {
+  if (d.model == Model::literal && d.literal.stiffness) return std::sqrt(*d.literal.stiffness);
+  const double g = d.effects.gravity ? d.effects.gravity->acceleration.norm() : 0.0;
+  double speed =
+      std::max(d.compressibility.design_speed, std::sqrt(2.0 * g * std::max(0.0, d.compressibility.max_fall_or_depth)));
+  for (const WoundDescription& wound : d.wounds) {
+    if (const auto* drive = std::get_if<PressureDriveSettings>(&wound.drive)) {
+      speed = std::max(speed, std::sqrt(2.0 * std::max(0.0, drive->inlet_pressure) / d.rest_density));
+    }
+  }
+  return d.compressibility.mach_factor * speed;
 }
 
 }  // namespace bleedsim::sph

@@ -9,6 +9,7 @@
 #include "service/sph/effects/literal_list.h"
 #include "service/sph/effects/platelets.h"
 #include "service/sph/effects/rheology.h"
+#include "service/sph/memory_need.h"
 #include "service/sph/model_rules.h"
 #include "service/sph/seeding.h"
 #include "service/sph/world_checks.h"
@@ -143,21 +144,9 @@ Result<std::unique_ptr<World>> build(const WorldDescription& d, const WorldOptio
 
 }  // namespace
 
-double speedOfSound(const WorldDescription& d) {
-  if (d.model == Model::literal && d.literal.stiffness) return std::sqrt(*d.literal.stiffness);
-  const double g = d.effects.gravity ? d.effects.gravity->acceleration.norm() : 0.0;
-  double speed =
-      std::max(d.compressibility.design_speed, std::sqrt(2.0 * g * std::max(0.0, d.compressibility.max_fall_or_depth)));
-  for (const WoundDescription& wound : d.wounds) {
-    if (const auto* drive = std::get_if<PressureDriveSettings>(&wound.drive)) {
-      speed = std::max(speed, std::sqrt(2.0 * std::max(0.0, drive->inlet_pressure) / d.rest_density));
-    }
-  }
-  return d.compressibility.mach_factor * speed;
-}
-
 Result<std::unique_ptr<World>> createWorld(const WorldDescription& description, const WorldOptions& options) {
   if (Status status = checkDescription(description, options); !status.ok()) return status;
+  if (Status status = checkMemory(description, options.threads, availableMemory()); !status.ok()) return status;
   const PassChoice choice = passChoice(description);
   if (options.precision == Precision::float64) {
     if (options.simd != SimdTarget::automatic && options.simd != SimdTarget::scalar) {

@@ -84,6 +84,7 @@ TEST_P(BadRequestTest, IsRefusedWithTheReason) {
   ASSERT_FALSE(action.ok());
   EXPECT_EQ(action.status().code(), GetParam().code);
   EXPECT_THAT(action.status().message(), HasSubstr(GetParam().text));
+  EXPECT_THAT(action.status().message(), testing::ContainsRegex("[:;] (use|send|name) ")) << "says what to do";
 }
 
 char empty_text[] = "";
@@ -240,21 +241,47 @@ TEST(DecodeInstrument, KeepsWhatTheSampleSays) {
   EXPECT_STREQ(sample->original.name, "PSM1");
 }
 
-TEST(DecodeInstrument, RefusesEveryBadNumber) {
-  const std::vector<std::function<void(bleed_v1_Instrument&)>> spoils{
-      [](auto& s) { s.position.x = kNaN; },    [](auto& s) { s.position.y = 2e6; },   [](auto& s) { s.force.z = kInfinity; },
-      [](auto& s) { s.force.x = 2e6; },        [](auto& s) { s.tip_radius_m = 0.0; }, [](auto& s) { s.tip_radius_m = kNaN; },
-      [](auto& s) { s.orientation.w = kNaN; }, [](auto& s) { s.name[0] = '\x01'; },   [](auto& s) { s.tip_radius_m = -1.0; },
-  };
-  for (std::size_t i = 0; i < spoils.size(); ++i) {
-    bleed_v1_Instrument sample = instrumentSample();
-    spoils[i](sample);
-    const auto decoded = decodeInstrument(sample);
-    ASSERT_FALSE(decoded.ok()) << i;
-    EXPECT_EQ(decoded.status().code(), StatusCode::invalid_argument) << i;
-    EXPECT_THAT(decoded.status().message(), HasSubstr("instrument.")) << i;
-  }
+struct BadInstrument {
+  const char* name;
+  std::function<void(bleed_v1_Instrument&)> spoil;
+  const char* message;
+};
+
+class BadInstrumentTest : public testing::TestWithParam<BadInstrument> {};
+
+TEST_P(BadInstrumentTest, IsRefusedWithTheReason) {
+  bleed_v1_Instrument sample = instrumentSample();
+  GetParam().spoil(sample);
+  const auto decoded = decodeInstrument(sample);
+  ASSERT_FALSE(decoded.ok());
+  EXPECT_EQ(decoded.status().code(), StatusCode::invalid_argument);
+  EXPECT_THAT(decoded.status().message(), HasSubstr(GetParam().message));
+  EXPECT_THAT(decoded.status().message(), testing::ContainsRegex("[:;] use ")) << "says what to do";
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadInstrumentTest,
+    testing::Values(
+        BadInstrument{"position_nan", [](auto& s) { s.position.x = kNaN; }, "instrument.position.x is nan"},
+        BadInstrument{"position_far", [](auto& s) { s.position.y = 2e6; }, "instrument.position.y is 2e+06: use -10 to 10 m"},
+        BadInstrument{"position_infinite", [](auto& s) { s.position.z = -kInfinity; }, "instrument.position.z is -inf"},
+        BadInstrument{"force_infinite", [](auto& s) { s.force.z = kInfinity; }, "instrument.force.z is inf"},
+        BadInstrument{"force_huge", [](auto& s) { s.force.x = 2e6; }, "instrument.force.x is 2e+06: use -1e+06 to 1e+06 N"},
+        BadInstrument{"force_long",
+                      [](auto& s) {
+                        s.force = {8e5, 8e5, 0.0};
+                      },
+                      "instrument.force is 1.13137e+06: use 0 to 1e+06 N"},
+        BadInstrument{"radius_none", [](auto& s) { s.tip_radius_m = 0.0; }, "instrument.tip_radius_m is 0: use 1e-05 to 10 m"},
+        BadInstrument{"radius_negative", [](auto& s) { s.tip_radius_m = -1.0; }, "instrument.tip_radius_m is -1"},
+        BadInstrument{"radius_wide", [](auto& s) { s.tip_radius_m = 10.5; }, "instrument.tip_radius_m is 10.5"},
+        BadInstrument{"radius_nan", [](auto& s) { s.tip_radius_m = kNaN; }, "instrument.tip_radius_m is nan"},
+        BadInstrument{"orientation_nan", [](auto& s) { s.orientation.w = kNaN; }, "instrument.orientation is nan"},
+        BadInstrument{"orientation_infinite", [](auto& s) { s.orientation.x = kInfinity; }, "instrument.orientation is inf"},
+        BadInstrument{"name_control", [](auto& s) { s.name[0] = '\x01'; },
+                      "instrument.name: byte 0 (0x01) is a control character"},
+        BadInstrument{"name_bytes", [](auto& s) { s.name[1] = '\xff'; }, "instrument.name: byte 1 (0xff) is not UTF-8"}),
+    [](const auto& tested) { return std::string{tested.param.name}; });
 
 }  // namespace
 }  // namespace bleedsim::dds

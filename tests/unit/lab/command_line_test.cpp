@@ -48,6 +48,48 @@ TEST(CommandLine, NumbersOutOfRangeAreRefused) {
   EXPECT_EQ(run({"effects", "nowhere.textproto", "--threads", "0"}).code, 2);
 }
 
+struct BadLine {
+  const char* name;
+  std::vector<const char*> arguments;
+  const char* message;
+};
+
+class BadCommandLineTest : public testing::TestWithParam<BadLine> {};
+
+TEST_P(BadCommandLineTest, HasCodeTwoAndTellsTheWayOut) {
+  const Outcome outcome = run(GetParam().arguments);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.errors, testing::HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadCommandLineTest,
+    testing::Values(
+        BadLine{"sceneless", {"effects"}, "scene is required"}, BadLine{"scenes", {"effects", "a", "b"}, "not expected: b"},
+        BadLine{"missing_scene", {"effects", "/nosuch.textproto"}, "does not exist; give the path of a scene file"},
+        BadLine{"folder", {"effects", "/"}, "is a folder; give the path of a scene file"},
+        BadLine{"device", {"effects", "/dev/zero"}, "is not a regular file; give the path of a scene file"},
+        BadLine{"particles", {"effects", "a", "--particles", "999"}, "--particles: Value 999 not in range 1000 to 1000000"},
+        BadLine{"particles_valueless", {"effects", "a", "--particles"}, "--particles: 1 required"},
+        BadLine{
+            "particles_twice", {"effects", "a", "--particles", "1000", "--particles", "1000"}, "--particles: At Most 1 required"},
+        BadLine{"threads", {"effects", "a", "--threads", "65"}, "--threads: Value 65 not in range 1 to 64"},
+        BadLine{"threads_valueless", {"effects", "a", "--threads"}, "--threads: 1 required"},
+        BadLine{"threads_twice", {"effects", "a", "--threads", "1", "--threads", "1"}, "--threads: At Most 1 required"},
+        BadLine{"simd_valueless", {"effects", "a", "--simd"}, "--simd: 1 required"},
+        BadLine{"simd_twice", {"effects", "a", "--simd", "auto", "--simd", "auto"}, "--simd: At Most 1 required"},
+        BadLine{"seconds_nan", {"effects", "a", "--seconds", "nan"}, "'nan' is not a number from 0.01 to 3600"},
+        BadLine{"seconds_valueless", {"effects", "a", "--seconds"}, "--seconds: 1 required"},
+        BadLine{"output_valueless", {"effects", "a", "-o"}, "--output: 1 required DIR missing"},
+        BadLine{"output_twice", {"effects", "a", "-o", "x", "-o", "y"}, "--output: At Most 1 required"},
+        BadLine{"json_value", {"effects", "a", "--json=no"}, "json was given a disallowed flag override"},
+        BadLine{"duration_nan", {"paper", "fig2", "--duration", "nan"}, "'nan' is not a number from 0.001 to 10000"},
+        BadLine{"table_seconds_inf", {"paper", "table2", "--seconds", "inf"}, "'inf' is not a number from 0.01 to 3600"},
+        BadLine{"counts_valueless", {"paper", "table2", "--counts"}, "--counts"},
+        BadLine{"scenes_valueless", {"paper", "table2", "--scenes"}, "--scenes: 1 required DIR missing"},
+        BadLine{"model_valueless", {"paper", "fig5", "--model"}, "--model"}),
+    [](const auto& tested) { return std::string{tested.param.name}; });
+
 TEST(CommandLine, AMissingSceneIsNamedWithTheFolder) {
   const Outcome outcome = run({"paper", "table2", "--scenes", "/nonexistent"});
   EXPECT_EQ(outcome.code, 2);

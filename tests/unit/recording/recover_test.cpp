@@ -7,6 +7,7 @@
 #include <set>
 
 #include "service/recording/mcap_reader.h"
+#include "service/recording/mcap_writer.h"
 #include "service/recording/recording_reader.h"
 #include "service/recording/recording_writer.h"
 #include "tests/unit/recording/random_samples.h"
@@ -150,6 +151,26 @@ TEST_F(RecoverTest, ADamagedChunkIsLeftOutAndTheOthersKept) {
   EXPECT_EQ(report->chunks, ends_.size() - 1);
   EXPECT_EQ(messagesOf(out_.path()).size(), written_.size() - (ends_[2].messages - ends_[1].messages));
   EXPECT_GT(report->summary.gaps, 0U);
+}
+
+TEST_F(RecoverTest, AFileWithMessagesOfOtherChannelsOnlyHasNothingToRecover) {
+  auto whole = mcap::McapReader::open(whole_.path());
+  ASSERT_TRUE(whole.ok());
+  std::vector<mcap::Schema> schemas;
+  for (const auto& [id, schema] : whole->index().schemas) schemas.push_back(schema);
+  std::vector<mcap::Channel> channels;
+  for (const auto& [id, channel] : whole->index().channels) channels.push_back(channel);
+  channels.push_back({999, schemas.front().id, "camera", "protobuf", {}});
+  auto writer = mcap::McapWriter::open(cut_.path(), {}, schemas, channels);
+  ASSERT_TRUE(writer.ok());
+  ASSERT_TRUE(writer->write(999, 1, 1, "picture").ok());
+  ASSERT_TRUE(writer->close().ok());
+
+  const auto report = recover(cut_.path(), out_.path());
+  ASSERT_FALSE(report.ok());
+  EXPECT_EQ(report.status().code(), StatusCode::data_loss);
+  EXPECT_NE(report.status().message().find("nothing to recover"), std::string::npos) << report.status().message();
+  EXPECT_FALSE(std::filesystem::exists(out_.path()));
 }
 
 TEST_F(RecoverTest, ADamagedIndexIsMadeAnew) {

@@ -1,0 +1,150 @@
+// Writes the seeds of the fuzz targets: good inputs of each kind, in the form that the target reads.
+//   fuzz_seeds FOLDER
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/unit/dds/samples.h"
+#include "tests/unit/recording/random_samples.h"
+
+namespace {
+
+using namespace bleedsim;
+
+class Bytes {
+ public:
+  template <class T>
+  Bytes& add(const T& value) {
+    text_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return *this;
+  }
+  Bytes& add(std::string_view text) {
+    text_ += text;
+    return *this;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+class Folder {
+ public:
+  explicit Folder(std::filesystem::path path) : path_{std::move(path)} {}
+  void write(const std::string& target, const std::string& name, std::string_view bytes) const {
+    std::filesystem::create_directories(path_ / target);
+    std::ofstream{path_ / target / name, std::ios::binary}.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+Bytes wound(std::uint32_t shape, const std::vector<double>& outline) {
+  bleed_v1_Wound sample = dds::discWound();
+  sample.shape = shape;
+  sample.radius2_m = 0.002;
+  sample.width_m = 0.002;
+  Bytes bytes;
+  bytes.add(sample).add(static_cast<std::uint16_t>(outline.size()));
+  for (const double number : outline) bytes.add(number);
+  return bytes;
+}
+
+void writeRequests(const Folder& folder) {
+  const auto write = [&](const std::string& name, std::uint8_t kind, const Bytes& body) {
+    folder.write("request", name, Bytes{}.add(kind).add(body.text()).text());
+  };
+  const std::vector<double> square{-0.003, -0.003, 0.003, -0.003, 0.003, 0.003, -0.003, 0.003};
+  write("wound_disc", bleed_v1_REQUEST_WOUND_ADD, wound(bleed_v1_SHAPE_DISC, {}));
+  write("wound_ellipse", bleed_v1_REQUEST_WOUND_ADD, wound(bleed_v1_SHAPE_ELLIPSE, {}));
+  write("wound_polygon", bleed_v1_REQUEST_WOUND_ADD, wound(bleed_v1_SHAPE_POLYGON, square));
+  write("wound_polyline", bleed_v1_REQUEST_WOUND_ADD, wound(bleed_v1_SHAPE_POLYLINE, square));
+  bleed_v1_WoundUpdate update{};
+  update.wound_id = 1;
+  update.fields = 31;
+  write("wound_update", bleed_v1_REQUEST_WOUND_UPDATE, Bytes{}.add(update).add(wound(bleed_v1_SHAPE_POLYGON, square).text()));
+  bleed_v1_WoundRemove removal{};
+  dds::copyText("cut", removal.wound_name);
+  write("wound_remove", bleed_v1_REQUEST_WOUND_REMOVE, Bytes{}.add(removal));
+  write("force", bleed_v1_REQUEST_FORCE, Bytes{}.add(dds::push()));
+  write("step", bleed_v1_REQUEST_STEP, Bytes{}.add(bleed_v1_StepCount{25}));
+  write("pace", bleed_v1_REQUEST_PACE, Bytes{}.add(bleed_v1_Pace{bleed_v1_PACE_FACTOR, 0.5}));
+  write("output", bleed_v1_REQUEST_OUTPUT, Bytes{}.add(bleed_v1_Output{30.0, true, 0x7F}));
+  write("load_scene", bleed_v1_REQUEST_LOAD_SCENE, Bytes{}.add(std::string_view{"name: 'a'"}));
+  bleed_v1_Effect effect{};
+  dds::copyText("viscosity", effect.name);
+  dds::copyText("viscosity_pa_s: 0.01", effect.settings);
+  effect.enabled = true;
+  write("effect", bleed_v1_REQUEST_EFFECT, Bytes{}.add(effect));
+  write("acquire", bleed_v1_REQUEST_ACQUIRE, Bytes{}.add(bleed_v1_Lease{60.0}));
+  write("unknown", 255, Bytes{}.add(std::uint32_t{9999}));
+}
+
+void writeFrames(const Folder& folder) {
+  const auto write = [&](const std::string& name, std::uint32_t count, const std::vector<bleed_v1_Attribute>& attributes,
+                         std::size_t bytes) {
+    Bytes input;
+    input.add(count).add(0.5).add(static_cast<std::uint8_t>(attributes.size()));
+    for (const bleed_v1_Attribute& attribute : attributes) input.add(attribute);
+    folder.write("frame", name, input.add(std::string(bytes, '\x3d')).text());
+  };
+  const bleed_v1_Attribute position{bleed_v1_SEMANTIC_POSITION, bleed_v1_SCALAR_FLOAT32, 3, 1.0F, 0.0F};
+  const bleed_v1_Attribute small{bleed_v1_SEMANTIC_POSITION, bleed_v1_SCALAR_UINT16, 3, 1e-5F, -0.1F};
+  const bleed_v1_Attribute id{bleed_v1_SEMANTIC_ID, bleed_v1_SCALAR_UINT32, 1, 1.0F, 0.0F};
+  const bleed_v1_Attribute velocity{bleed_v1_SEMANTIC_VELOCITY, bleed_v1_SCALAR_UINT16, 3, 1e-3F, 0.0F};
+  const bleed_v1_Attribute density{bleed_v1_SEMANTIC_DENSITY, bleed_v1_SCALAR_FLOAT32, 1, 1.0F, 0.0F};
+  const bleed_v1_Attribute later{77, bleed_v1_SCALAR_UINT16, 2, 1.0F, 0.0F};
+  write("empty", 0, {position, id}, 0);
+  write("least", 2, {position, id}, 2 * 16);
+  write("all", 3, {small, id, velocity, density, later}, 3 * (6 + 4 + 6 + 4 + 4));
+}
+
+void writeRecordings(const Folder& folder) {
+  const recording::test::ScratchFile file{"seed.mcap"};
+  recording::test::writeRecording(file.path(), 3, 1500);
+  const std::string bytes = recording::test::readAll(file.path());
+  folder.write("recording", "whole", bytes);
+  folder.write("recording", "cut", std::string_view{bytes}.substr(0, bytes.size() / 2));
+  std::mt19937_64 random{5};
+  for (int kind = 0; kind < recording::test::kJournalKinds; ++kind) {
+    const std::string journal = recording::test::makeJournal(random, 1, kind).SerializeAsString();
+    folder.write("message", "journal_" + std::to_string(kind), Bytes{}.add(std::uint8_t{4}).add(journal).text());
+  }
+  folder.write("message", "scene",
+               Bytes{}.add(std::uint8_t{3}).add(recording::test::makeScene(random).SerializeAsString()).text());
+  folder.write("message", "frame",
+               Bytes{}.add(std::uint8_t{0}).add(recording::test::makeFrame(random, 1, 3).SerializeAsString()).text());
+  folder.write("message", "stats",
+               Bytes{}.add(std::uint8_t{1}).add(recording::test::makeStats(1, 0.5).SerializeAsString()).text());
+  recording::Status status;
+  recording::test::randomize(random, status);
+  folder.write("message", "status", Bytes{}.add(std::uint8_t{2}).add(status.SerializeAsString()).text());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+    return 2;
+  }
+  const Folder folder{argv[1]};
+  writeRequests(folder);
+  writeFrames(folder);
+  writeRecordings(folder);
+  folder.write("instrument", "good", Bytes{}.add(dds::instrumentSample()).text());
+  folder.write("effect", "viscosity",
+               Bytes{}.add(std::uint8_t{2}).add(std::string_view{"viscosity_pa_s: 0.01 solve: EXPLICIT"}).text());
+  folder.write("effect", "off", Bytes{}.add(std::uint8_t{224}).text());
+  folder.write("effect", "tension", Bytes{}.add(std::uint8_t{3}).add(std::string_view{"sigma_n_per_m: 0.06"}).text());
+  folder.write("scene", "least",
+               "domain { lower_m {} upper_m { x: 0.1 y: 0.1 z: 0.1 } capacity: 10 }\nresolution { spacing_m: 0.002 }\n"
+               "compressibility { design_speed_m_per_s: 0.3 }\n");
+  return 0;
+}
