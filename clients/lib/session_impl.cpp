@@ -196,6 +196,7 @@ void Session::Impl::takeState() {
     SessionStatus value = fromWire(wire);
     const std::lock_guard lock{mutex};
     alive = value.state != SessionState::stopped;
+    heard = true;
     if (status && status->session != value.session) {
       replaced_ = true;
       clock = {};
@@ -252,7 +253,9 @@ void Session::Impl::watchPeers() {
   const bool connected = status_writer && request_reader && reply_writer;
   const std::lock_guard lock{mutex};
   const bool stopped = status && status->state == SessionState::stopped;
-  const bool now_alive = !stopped && (status_writer || !matched);
+  // Which daemon has come back is known with its first status.
+  const bool now_alive = !stopped && (!matched || (status_writer && heard));
+  if (!now_alive) heard = false;
   if (connected == matched && now_alive == alive) return;
   // Once matched, a session counts as gone when its writers are: "matched" only ever rises.
   matched = matched || connected;

@@ -48,6 +48,7 @@ class Session::Impl {
   bool alive = true;
   ConnectionState connection;  // as it was told last
   bool matched = false;
+  bool heard = true;  // a status has come since the session was lost
   ClockEstimator clock;
   bool had_offset = false;  // somebody wants the clock offset
 
