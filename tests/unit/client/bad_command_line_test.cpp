@@ -21,7 +21,7 @@ struct Outcome {
   std::string errors;
 };
 
-Outcome run(std::vector<std::string> arguments) {
+Outcome run(const std::vector<std::string>& arguments) {
   std::vector<const char*> argv{"bleedctl"};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
   testing::internal::CaptureStderr();

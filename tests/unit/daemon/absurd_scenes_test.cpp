@@ -69,8 +69,9 @@ TEST(AbsurdScene, TooFastThroughSoSmallAWoundIsRefusedWithWhatItWouldTake) {
 TEST(AbsurdScene, AThousandWoundsInATextAreRefusedWithTheBoundAndAWay) {
   std::string wounds = "commands { max_wounds: 1023 }\n";
   for (int i = 0; i < 1000; ++i) {
+    const int row = i / 32;
     wounds += fmt::format("wounds {{ position_m {{ x: {:.3f} y: {:.3f} }} disc {{ radius_m: 0.0005 }} flow_ml_per_s: 0.01 }}\n",
-                          -0.19 + 0.012 * (i % 32), -0.19 + 0.012 * (i / 32));
+                          -0.19 + 0.012 * (i % 32), -0.19 + 0.012 * row);
   }
   const auto loaded = load(flatScene(0.2, 0.03, 20000, 0.003, wounds));
   ASSERT_FALSE(loaded.ok());
@@ -87,7 +88,8 @@ TEST(AbsurdScene, AThousandWoundsByCommandRun) {
   wound.shape = sph::DiscPatch{0.0005};
   wound.drive = sph::FlowDrive{1e-8};
   for (int i = 0; i < 1000; ++i) {
-    wound.position = {-0.19 + 0.012 * (i % 32), -0.19 + 0.012 * (i / 32), 0.0};
+    const int row = i / 32;
+    wound.position = {-0.19 + 0.012 * (i % 32), -0.19 + 0.012 * row, 0.0};
     const auto added = world.apply(sph::AddWound{wound});
     ASSERT_TRUE(added.ok()) << i << ": " << added.status().message();
   }
