@@ -98,7 +98,11 @@ class Probe {
   void impersonate(const Probe& other) { client_ = other.client_; }
 
   /// A good sample, unless `spoil` makes it a bad one.
-  void sendInstrument(std::uint64_t seq, const std::function<void(bleed_v1_Instrument&)>& spoil = {});
+  void sendInstrument(std::uint64_t seq, const std::function<void(bleed_v1_Instrument&)>& spoil = {}) {
+    EXPECT_TRUE(trySendInstrument(seq, spoil));
+  }
+  /// False: the middleware took it not in time.
+  bool trySendInstrument(std::uint64_t seq, const std::function<void(bleed_v1_Instrument&)>& spoil = {});
   /// Waits until the session reads instruments: nothing that is sent then is lost.
   void matchInstruments();
   void dropInstrumentWriter() { instruments_.reset(); }

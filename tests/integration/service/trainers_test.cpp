@@ -50,7 +50,9 @@ TEST_F(ServiceTest, AFloodOfRequestsKeepsNobodyWaiting) {
   });
   EXPECT_EQ(status.activityOf(polite.client()).busy, 0U);
   EXPECT_EQ(status.activityOf(polite.client()).refused, 0U);
-  EXPECT_EQ(status.counter("requests_busy"), status.activityOf(flooder.client()).busy);
+  polite.status([&](const StatusHead& head) {
+    return head.counter("requests_busy") == head.activityOf(flooder.client()).busy;  // once the flood is over
+  });
 }
 
 TEST_F(ServiceTest, ABurstOfInstrumentsKeepsNobodyWaiting) {
@@ -58,15 +60,19 @@ TEST_F(ServiceTest, ABurstOfInstrumentsKeepsNobodyWaiting) {
   Probe polite{domain(), "burst"};
   Probe flooder{domain(), "burst"};
   flooder.matchInstruments();
-  // Some 150 bytes each: 1 MB in one go, of more tools than a session has.
-  constexpr std::uint64_t kSamples = 7000;
-  for (std::uint64_t i = 1; i <= kSamples; ++i) {
-    flooder.sendInstrument(i, [i](bleed_v1_Instrument& sample) { sample.tool = static_cast<std::uint32_t>(i % 100); });
+  // Some 150 bytes each: 1 MB in one go, of more tools than a session has. What the middleware has no room for is lost at once,
+  // and of the rest a daemon that gets no time for a while sees the newest 1024.
+  std::uint64_t sent = 0;
+  for (std::uint64_t i = 1; i <= 7000; ++i) {
+    sent += flooder.trySendInstrument(i, [i](bleed_v1_Instrument& sample) { sample.tool = static_cast<std::uint32_t>(i % 100); })
+                ? 1
+                : 0;
   }
+  EXPECT_GT(sent, 1000U);
   EXPECT_EQ(polite.ask(bleed_v1_REQUEST_RESUME).code, kAccepted);
   expectSteps(polite);
   const StatusHead status =
-      polite.status([&](const StatusHead& head) { return head.activityOf(flooder.client()).instrument_samples >= kSamples; });
+      polite.status([&](const StatusHead& head) { return head.activityOf(flooder.client()).instrument_samples >= 1000; });
   EXPECT_GT(status.activityOf(flooder.client()).instruments_rejected, 0U);
   EXPECT_EQ(status.activityOf(polite.client()).instruments_rejected, 0U);
   EXPECT_EQ(polite.ask(bleed_v1_REQUEST_PAUSE).code, kAccepted);
