@@ -17,6 +17,8 @@ namespace {
 using client::PaceMode;
 using client::Session;
 
+constexpr std::chrono::milliseconds kLook{50};
+
 client::SessionOptions commandsOnly() { return {.delivery = client::Delivery::none}; }
 
 /// Adds a command that sends one request without arguments.
@@ -81,7 +83,19 @@ int runShutdown(const Context& context) {
   std::optional<Connection> connection = connect(context, commandsOnly(), code);
   if (!connection) return code;
   client::Session& session = connection->session;
-  const int answered = finish(context, session.shutdown(), "shut down");
+  std::future<client::Reply> reply = session.shutdown();
+  // A daemon that obeys at once may be gone before it has discovered who reads its reply: then nobody will send it again.
+  while (reply.wait_for(kLook) != std::future_status::ready) {
+    if (session.alive()) continue;
+    client::Reply obeyed{.code = client::ReplyCode::accepted};
+    if (const auto last = session.status()) {
+      obeyed.applied_step = last->step;
+      obeyed.sim_time_s = last->sim_time_s;
+      obeyed.epoch = last->epoch;
+    }
+    return finish(context, obeyed, "shut down");
+  }
+  const int answered = finish(context, reply.get(), "shut down");
   if (answered != kDone) return answered;
   if (session.waitGone(context.timeout())) return kDone;
   return fail(kNoSession, fmt::format("session '{}' accepted, but still runs", session.name()));

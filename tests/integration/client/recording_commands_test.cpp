@@ -297,7 +297,8 @@ TEST_F(RecordingCommandsTest, ASessionThatEndsLeavesACompleteFileAndCodeThree) {
   const std::string file = path("ended.mcap");
   test::ChildProcess record{command({"record", "-o", file, "--duration", "1000"}), true};
   ASSERT_TRUE(record.readLine().has_value());
-  ASSERT_EQ(bleedctl({"shutdown"}).code, 0);
+  const test::Finished shutdown = bleedctl({"shutdown"});
+  ASSERT_EQ(shutdown.code, 0) << shutdown.output;
   EXPECT_EQ(record.wait(), 3);
   EXPECT_THAT(record.output(), HasSubstr("session 'theatre' ended: the recording is incomplete"));
   EXPECT_GT(number(info(file), "frames"), 0.0);
