@@ -26,9 +26,7 @@ class ClientLedger {
   /// Something became of a sample that was heard. Nothing is noted of a client that is forgotten meanwhile.
   void note(const dds::Uuid& client, dds::ClientCount what) {
     const std::lock_guard lock{mutex_};
-    const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(count_);
-    const auto known = std::find_if(entries_.begin(), end, [&client](const auto& entry) { return entry.client == client; });
-    if (known != end) ++known->counts[static_cast<std::size_t>(what)];
+    if (dds::ClientActivity* entry = known(client)) ++entry->counts[static_cast<std::size_t>(what)];
   }
 
   /// In the order in which they were heard of first; returns how many there are.
@@ -39,10 +37,15 @@ class ClientLedger {
   }
 
  private:
-  dds::ClientActivity& find(const dds::Uuid& client, std::int64_t now) {
+  /// Null: it is none of those that are kept.
+  dds::ClientActivity* known(const dds::Uuid& client) {
     const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(count_);
-    const auto known = std::find_if(entries_.begin(), end, [&client](const auto& entry) { return entry.client == client; });
-    if (known != end) return *known;
+    const auto found = std::find_if(entries_.begin(), end, [&client](const auto& entry) { return entry.client == client; });
+    return found == end ? nullptr : &*found;
+  }
+  dds::ClientActivity& find(const dds::Uuid& client, std::int64_t now) {
+    if (dds::ClientActivity* entry = known(client)) return *entry;
+    const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(count_);
     if (count_ == entries_.size()) {
       const auto oldest =
           std::min_element(entries_.begin(), end, [](const auto& a, const auto& b) { return a.last_heard_ns < b.last_heard_ns; });

@@ -9,48 +9,24 @@
 #include <optional>
 #include <unistd.h>
 
-#include "tests/integration/client/fake_service.h"
+#include "tests/integration/client/client_fixture.h"
 
 namespace bleedsim::client_test {
 namespace {
 
 using namespace std::chrono_literals;
-using client::Client;
 using client::Delivery;
 using client::Reply;
 using client::ReplyCode;
 using client::Session;
 
-constexpr std::uint32_t kDomain = 65;
-constexpr auto kLong = 20s;
-
-class ClientTest : public testing::Test {
+class ClientTest : public ClientFixture {
  protected:
-  void SetUp() override {
-    const std::string tag = fmt::format("c{}", getpid());
-    auto participant = transport::Participant::create({.domain = kDomain, .tag = tag});
-    ASSERT_TRUE(participant.ok()) << participant.status().message();
-    participant_.emplace(*participant);
-    auto client = Client::create({.domain = kDomain, .tag = tag});
-    ASSERT_TRUE(client.ok()) << client.status().message();
-    client_.emplace(std::move(*client));
-  }
-
-  std::unique_ptr<FakeService> serve(const std::string& name, FakeService::Judge judge = {}) {
-    auto service = FakeService::start(*participant_, name, std::move(judge));
-    EXPECT_TRUE(service.ok());
-    (*service)->publishStatus();
-    return std::move(*service);
-  }
-
   Session open(const std::string& name, const client::SessionOptions& options = {}) {
     auto session = client_->open(name, options, kLong);
     EXPECT_TRUE(session.ok()) << session.status().message();
     return std::move(*session);
   }
-
-  std::optional<transport::Participant> participant_;
-  std::optional<Client> client_;
 };
 
 TEST_F(ClientTest, FindsASessionByNameOrTheFirst) {

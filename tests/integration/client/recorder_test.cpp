@@ -10,32 +10,19 @@
 #include <unistd.h>
 
 #include "service/recording/summary.h"
-#include "tests/integration/client/fake_service.h"
+#include "tests/integration/client/client_fixture.h"
 
 namespace bleedsim::client_test {
 namespace {
 
 using namespace std::chrono_literals;
-using client::Client;
 using client::Recorder;
 
-constexpr std::uint32_t kDomain = 65;
-constexpr auto kLong = 20s;
-
-class RecorderTest : public testing::Test {
+class RecorderTest : public ClientFixture {
  protected:
   void SetUp() override {
-    const std::string tag = fmt::format("r{}", getpid());
-    auto participant = transport::Participant::create({.domain = kDomain, .tag = tag});
-    ASSERT_TRUE(participant.ok()) << participant.status().message();
-    participant_.emplace(*participant);
-    auto client = Client::create({.domain = kDomain, .tag = tag});
-    ASSERT_TRUE(client.ok()) << client.status().message();
-    client_.emplace(std::move(*client));
-    auto service = FakeService::start(*participant_, "one");
-    ASSERT_TRUE(service.ok());
-    service_ = std::move(*service);
-    service_->publishStatus();
+    ClientFixture::SetUp();
+    service_ = serve("one");
     service_->publishScene("round_wound");
     ASSERT_TRUE(client_->find("one", kLong).ok());
     file_ = std::filesystem::path{testing::TempDir()} / fmt::format("bleedsim_recorder_{}.mcap", getpid());
@@ -75,19 +62,13 @@ class RecorderTest : public testing::Test {
     return *recording::summarize(*reader);
   }
 
-  std::optional<transport::Participant> participant_;
-  std::optional<Client> client_;
   std::unique_ptr<FakeService> service_;
   std::filesystem::path file_;
 };
 
 TEST_F(RecorderTest, AFailureOfTheMiddlewareIsNoFailureOfTheFile) {
-  auto recorder = Recorder::start(*client_, "one", file_.string(), {.frames = 1000});
-  ASSERT_TRUE(recorder.ok()) << recorder.status().message();
-  ASSERT_TRUE(service_->waitFrameReaders(1));
-  ASSERT_TRUE(service_->publishFrame(1).ok());
+  auto recorder = startWithAFrame({.frames = 1000});
   // The participant goes while nothing is read: a sample on loan would go with it.
-  while (recorder->progress().frames == 0) ASSERT_FALSE(recorder->waitDone(10ms));
   deleteClientsParticipant();
   EXPECT_TRUE(recorder->waitDone(kLong));
   const Status closed = recorder->close();

@@ -10,6 +10,7 @@
 #include "service/recording/convert.h"
 #include "service/recording/recording_writer.h"
 #include "service/recording/scene_text.h"
+#include "tests/support/frame_block.h"
 
 namespace bleedsim::bleedctl {
 namespace {
@@ -77,17 +78,9 @@ class FramePainterTest : public testing::Test {
     frame.set_epoch(1);
     frame.set_seq(seq);
     frame.set_count(static_cast<std::uint32_t>(positions.size() / 3));
-    const auto add = [&](Attribute::Semantic semantic, Attribute::ScalarType type, std::uint32_t components,
-                         const auto& numbers) {
-      Attribute& attribute = *frame.add_attributes();
-      attribute.set_semantic(semantic);
-      attribute.set_scalar_type(type);
-      attribute.set_components(components);
-      frame.mutable_payload()->append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * 4);
-    };
-    add(Attribute::POSITION, Attribute::FLOAT32, 3, positions);
-    add(Attribute::ID, Attribute::UINT32, 1, std::vector<std::uint32_t>(frame.count(), 1));
-    add(Attribute::VELOCITY, Attribute::FLOAT32, 3, positions);
+    recording::test::addBlock(frame, Attribute::POSITION, Attribute::FLOAT32, 3, positions);
+    recording::test::addBlock(frame, Attribute::ID, Attribute::UINT32, 1, std::vector<std::uint32_t>(frame.count(), 1));
+    recording::test::addBlock(frame, Attribute::VELOCITY, Attribute::FLOAT32, 3, positions);
     return frame;
   }
 

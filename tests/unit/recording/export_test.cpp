@@ -12,6 +12,7 @@
 #include "service/recording/ply.h"
 #include "service/recording/recording_writer.h"
 #include "service/recording/vtp.h"
+#include "tests/support/frame_block.h"
 #include "tests/unit/recording/random_samples.h"
 
 namespace bleedsim::recording::test {
@@ -194,16 +195,9 @@ Frame tableFrame(std::uint64_t seq, bool with_density) {
   frame.set_epoch(2);
   frame.set_sim_time_s(0.25 * static_cast<double>(seq));
   frame.set_count(2);
-  const auto add = [&](Attribute::Semantic semantic, Attribute::ScalarType type, std::uint32_t components, const auto& numbers) {
-    Attribute& attribute = *frame.add_attributes();
-    attribute.set_semantic(semantic);
-    attribute.set_scalar_type(type);
-    attribute.set_components(components);
-    frame.mutable_payload()->append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * 4);
-  };
-  add(Attribute::POSITION, Attribute::FLOAT32, 3, std::array<float, 6>{0.1F, 0.2F, -0.3F, 1e-7F, 2.0F, 3.0F});
-  add(Attribute::ID, Attribute::UINT32, 1, std::array<std::uint32_t, 2>{4'000'000'000U, 7});
-  if (with_density) add(Attribute::DENSITY, Attribute::FLOAT32, 1, std::array<float, 2>{1060.0F, 1061.5F});
+  addBlock(frame, Attribute::POSITION, Attribute::FLOAT32, 3, std::array<float, 6>{0.1F, 0.2F, -0.3F, 1e-7F, 2.0F, 3.0F});
+  addBlock(frame, Attribute::ID, Attribute::UINT32, 1, std::array<std::uint32_t, 2>{4'000'000'000U, 7});
+  if (with_density) addBlock(frame, Attribute::DENSITY, Attribute::FLOAT32, 1, std::array<float, 2>{1060.0F, 1061.5F});
   return frame;
 }
 

@@ -34,7 +34,7 @@ void randomize(std::mt19937_64& random, google::protobuf::Message& message);
 Frame makeFrame(std::mt19937_64& random, std::uint64_t seq, std::uint32_t count);
 Scene makeScene(std::mt19937_64& random);
 /// Cases of a request, and of a journal entry with each request counted for itself.
-constexpr int kRequestKinds = 14;
+constexpr int kRequestKinds = 16;
 constexpr int kJournalKinds = kRequestKinds + 3;
 /// Kind 0 to kJournalKinds - 1: every case of a request, and the other bodies.
 Journal makeJournal(std::mt19937_64& random, std::uint64_t number, int kind);

@@ -14,6 +14,7 @@
 #include "service/recording/mcap_reader.h"
 #include "service/recording/recording_writer.h"
 #include "service/recording/summary.h"
+#include "tests/support/frame_block.h"
 #include "tests/unit/recording/random_samples.h"
 
 namespace {
@@ -56,16 +57,9 @@ Frame makeFrame(std::uint64_t seq) {
     for (const float v : {-std::sin(angle), std::cos(angle), 0.0F}) velocities.push_back(v);
     ids.push_back(4'294'967'295U - i);
   }
-  const auto add = [&](Attribute::Semantic semantic, Attribute::ScalarType type, std::uint32_t components, const auto& numbers) {
-    Attribute& attribute = *frame.add_attributes();
-    attribute.set_semantic(semantic);
-    attribute.set_scalar_type(type);
-    attribute.set_components(components);
-    frame.mutable_payload()->append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * 4);
-  };
-  add(Attribute::POSITION, Attribute::FLOAT32, 3, positions);
-  add(Attribute::ID, Attribute::UINT32, 1, ids);
-  add(Attribute::VELOCITY, Attribute::FLOAT32, 3, velocities);
+  test::addBlock(frame, Attribute::POSITION, Attribute::FLOAT32, 3, positions);
+  test::addBlock(frame, Attribute::ID, Attribute::UINT32, 1, ids);
+  test::addBlock(frame, Attribute::VELOCITY, Attribute::FLOAT32, 3, velocities);
   return frame;
 }
 
