@@ -55,6 +55,7 @@ void addControlCommands(CLI::App& app, Context& context);    // pause, resume, r
 void addWoundCommands(CLI::App& app, Context& context);      // wound add, move, set, remove; force
 void addEffectCommands(CLI::App& app, Context& context);     // effect list, on, off
 void addRecordingCommands(CLI::App& app, Context& context);  // record, info, recover, export, render
+void addLeaseCommand(CLI::App& app, Context& context);       // lease
 void addDoctorCommand(CLI::App& app, Context& context);      // doctor
 
 /// Parses, runs and returns the exit code.

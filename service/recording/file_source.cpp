@@ -13,7 +13,8 @@ namespace {
 
 ::bleedsim::Status cannotRead(const std::filesystem::path& path, int error) {
   const StatusCode code = error == ENOENT ? StatusCode::not_found : StatusCode::io;
-  return {code, fmt::format("cannot read '{}': {}", path.string(), std::generic_category().message(error))};
+  return {code, fmt::format("cannot read '{}': {}; check the path and its permissions", path.string(),
+                            std::generic_category().message(error))};
 }
 
 }  // namespace
@@ -26,7 +27,8 @@ Result<FileSource> FileSource::open(const std::filesystem::path& path) {
   if (error != 0 || !S_ISREG(info.st_mode)) {
     ::close(descriptor);
     if (error != 0) return cannotRead(path, error);
-    return ::bleedsim::Status{StatusCode::io, fmt::format("cannot read '{}': it is not a regular file", path.string())};
+    return ::bleedsim::Status{StatusCode::io,
+                              fmt::format("cannot read '{}': it is not a regular file; give a recording", path.string())};
   }
   return FileSource{path, descriptor, static_cast<std::uint64_t>(info.st_size)};
 }

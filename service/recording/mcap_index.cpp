@@ -144,12 +144,15 @@ Result<FileIndex> readIndex(const FileSource& file, Damage damage) {
   std::array<std::byte, kMagic.size()> magic{};
   if (file.bytes() < magic.size()) {
     return ::bleedsim::Status{StatusCode::data_loss,
-                              fmt::format("'{}' is no recording: it has {} bytes", file.name(), file.bytes())};
+                              fmt::format("'{}' is no recording: it has {} bytes; give a file that 'bleedctl record' wrote",
+                                          file.name(), file.bytes())};
   }
   if (::bleedsim::Status status = file.read(0, magic); !status) return status;
   if (!isMagic(magic)) {
-    return ::bleedsim::Status{StatusCode::data_loss,
-                              fmt::format("'{}' is no recording: it does not start as an MCAP file", file.name())};
+    return ::bleedsim::Status{
+        StatusCode::data_loss,
+        fmt::format("'{}' is no recording: it does not start as an MCAP file; give one that 'bleedctl record' wrote",
+                    file.name())};
   }
   Result<FileIndex> index = readIndexAfterMagic(file, damage);
   if (damage == Damage::refuse || index.status().code() != StatusCode::data_loss) return index;

@@ -1,5 +1,6 @@
 // Every command of bleedctl, as a process of its own, against a real bleedd.
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -61,6 +62,23 @@ class BleedctlBleeddTest : public testing::Test {
 
   std::unique_ptr<RunningDaemon> daemon_;
 };
+
+TEST_F(BleedctlBleeddTest, LeaseKeepsOthersFromCommandingUntilItEnds) {
+  test::ChildProcess lease{{BLEEDCTL_PATH, "--domain", std::to_string(kDomain), "--timeout", "60", "lease"}};
+  ASSERT_TRUE(lease.waitForOutput("leased until Ctrl-C")) << lease.output();
+  const test::Finished refused = bleedctl({"pause"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.output, HasSubstr("has the lease for up to"));
+  EXPECT_EQ(bleedctl({"lease", "--seconds", "1"}).code, 1);
+  lease.signal(SIGINT);
+  EXPECT_EQ(lease.wait(), 0);
+  EXPECT_THAT(lease.output(), HasSubstr("released"));
+  EXPECT_EQ(bleedctl({"pause"}).code, 0);
+
+  const test::Finished short_one = bleedctl({"lease", "--seconds", "1"});
+  EXPECT_EQ(short_one.code, 0);
+  EXPECT_THAT(short_one.output, AllOf(HasSubstr("leased for 1 s"), HasSubstr("released")));
+}
 
 TEST_F(BleedctlBleeddTest, ListStatusAndWatchShowTheSession) {
   const Json sessions = json({"list"});

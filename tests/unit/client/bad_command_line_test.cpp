@@ -75,6 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadLine{"pace_word", {"pace", "fast"}, "use realtime, max or a factor from 0.0001 to 1000"},
                     BadLine{"pace_twice", {"pace", "1", "2"}, "not expected: 2"},
                     BadLine{"load_fileless", {"load"}, "FILE is required"},
+                    BadLine{"lease_short", {"lease", "--seconds", "0.5"}, "'0.5' is not a number from 1 to 86400"},
                     BadLine{"watch_count", {"watch", "--count", "x"}, "--count: Value x not in range 0 to"},
                     BadLine{"watch_count_valueless", {"watch", "--count"}, "--count: 1 required"},
                     BadLine{"watch_count_twice", {"watch", "--count", "1", "--count", "2"}, "--count: At Most 1 required"},
@@ -164,7 +165,7 @@ TEST_F(BadFile, IsNoRecording) {
        std::vector<std::vector<std::string>>{{"info"}, {"recover", "-o", out}, {"export", "-o", out}}) {
     expect(command, "missing", "No such file");
     expect(command, "folder", "not a regular file");
-    expect(command, "empty", "is no recording: it has 0 bytes");
+    expect(command, "empty", "is no recording: it has 0 bytes; give a file that 'bleedctl record' wrote");
     expect(command, "noise", "is no recording: it does not start as an MCAP file");
     if (geteuid() != 0) expect(command, "locked", "Permission denied");
     EXPECT_FALSE(std::filesystem::exists(out)) << command[0] << " leaves nothing behind";
