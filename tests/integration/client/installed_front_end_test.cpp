@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <iterator>
-#include <unistd.h>
 
 #include "tests/integration/client/running_daemon.h"
 #include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::client_test {
 namespace {
@@ -21,20 +21,18 @@ class InstalledFrontEndTest : public testing::Test {
  protected:
   void SetUp() override {
     isolate();
-    root_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_installed_{}", getpid());
-    fs::create_directories(root_);
     for (const char* component : {"client", "daemon"}) {
       const test::Finished installed =
           test::runProcess({CMAKE_PATH, "--install", BLEEDSIM_BUILD_DIR, "--prefix", prefix(), "--component", component}, true);
       ASSERT_EQ(installed.code, 0) << installed.output;
     }
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   std::string prefix() const { return (root_ / "prefix").string(); }
   std::string build() const { return (root_ / "front_end").string(); }
 
-  fs::path root_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& root_ = temporary_.path();
 };
 
 std::string textOf(const fs::path& path) {

@@ -5,6 +5,7 @@
 
 #include "tests/integration/client/bleedctl_fixture.h"
 #include "tests/integration/client/json_value.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::client_test {
 namespace {
@@ -16,13 +17,6 @@ using testing::Not;
 
 class RecordLossTest : public BleedctlTest {
  protected:
-  void SetUp() override {
-    BleedctlTest::SetUp();
-    folder_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_record_loss_{}", getpid());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   static Json json(std::vector<std::string> arguments) {
     arguments.emplace_back("--json");
@@ -49,7 +43,8 @@ class RecordLossTest : public BleedctlTest {
     EXPECT_THAT(bleedctl({"info", path("b.mcap")}).output, Not(HasSubstr("truncated")));
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(RecordLossTest, AKilledRecordingKeepsWhatCameASecondBefore) {

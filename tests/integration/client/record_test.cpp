@@ -5,6 +5,7 @@
 
 #include "tests/integration/client/bleedctl_fixture.h"
 #include "tests/integration/client/json_value.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::client_test {
 namespace {
@@ -16,13 +17,6 @@ using testing::Not;
 
 class RecordTest : public BleedctlTest {
  protected:
-  void SetUp() override {
-    BleedctlTest::SetUp();
-    folder_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_record_{}", getpid());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string file() const { return (folder_ / "a.mcap").string(); }
   std::vector<std::string> record(std::vector<std::string> more = {}) const {
     more.insert(more.begin(), {"record", "-o", file()});
@@ -48,7 +42,8 @@ class RecordTest : public BleedctlTest {
     service.publishStatus();  // tells the recording that no inputs of this frame follow
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(RecordTest, SaysAtOnceThatThereIsNothingToRecordAndWhenThereIs) {

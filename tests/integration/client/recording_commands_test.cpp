@@ -15,6 +15,7 @@
 #include "service/recording/recording_reader.h"
 #include "tests/integration/client/json_value.h"
 #include "tests/integration/client/running_daemon.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::client_test {
 namespace {
@@ -45,12 +46,9 @@ class RecordingCommandsTest : public testing::Test {
  protected:
   void SetUp() override {
     isolate();
-    folder_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_recording_commands_{}", getpid());
-    fs::create_directories(folder_);
     daemon_ = RunningDaemon::start(BLEEDD_PATH, SCENE_DIR "/round_wound.textproto", "theatre", kDomain);
     ASSERT_NE(daemon_, nullptr);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   static test::Finished bleedctl(std::vector<std::string> arguments, bool with_stderr = true) {
@@ -62,7 +60,8 @@ class RecordingCommandsTest : public testing::Test {
     return parseJson(finished.output);
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
   std::unique_ptr<RunningDaemon> daemon_;
 };
 

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <optional>
 #include <sstream>
-#include <unistd.h>
 
 #include "service/transport/receive_buffer.h"
 #include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::config_test {
 namespace {
@@ -22,13 +22,10 @@ using testing::IsEmpty;
 class InstalledServiceTest : public testing::Test {
  protected:
   void SetUp() override {
-    root_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_service_{}", getpid());
-    fs::create_directories(root_);
     const test::Finished installed =
         test::runProcess({CMAKE_PATH, "--install", BLEEDSIM_BUILD_DIR, "--prefix", root_.string(), "--component", "daemon"});
     ASSERT_EQ(installed.code, 0) << installed.output;
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   std::string unit() const { return (root_ / "lib/systemd/system/bleedd@.service").string(); }
   static std::vector<std::string> linesOf(const fs::path& file) {
@@ -51,7 +48,8 @@ class InstalledServiceTest : public testing::Test {
     return test::runProcess(arguments);
   }
 
-  fs::path root_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& root_ = temporary_.path();
 };
 
 // It ends with 0 whatever it finds, but it says what.

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "tests/support/child_process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::config_test {
 namespace {
@@ -23,12 +24,9 @@ constexpr uid_t kNobody = 65534;
 class RevisionTest : public testing::Test {
  protected:
   void SetUp() override {
-    root_ = fs::path{testing::TempDir()} / fmt::format("bleedsim_revision_{}", getpid());
-    fs::create_directories(root_);
     setenv("GIT_CONFIG_GLOBAL", "/dev/null", 1);
     setenv("GIT_CONFIG_NOSYSTEM", "1", 1);
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   static bool hasGit() { return test::runProcess({"/usr/bin/env", "git", "--version"}).code == 0; }
   static void git(const fs::path& folder, const std::vector<std::string>& arguments) {
@@ -63,7 +61,8 @@ class RevisionTest : public testing::Test {
     return text.substr(at + start.size(), text.find('"', at + start.size()) - at - start.size());
   }
 
-  fs::path root_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& root_ = temporary_.path();
 };
 
 TEST_F(RevisionTest, OfACheckoutIsItsCommitAndSaysWhenTrackedFilesDiffer) {

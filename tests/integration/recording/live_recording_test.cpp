@@ -15,6 +15,7 @@
 #include "service/recording/summary.h"
 #include "tests/integration/recording/live_source.h"
 #include "tests/integration/recording/stream_recorder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::recording_test {
 namespace {
@@ -26,9 +27,6 @@ constexpr std::size_t kPositionBytes = 12;
 class LiveRecording : public testing::Test {
  protected:
   void SetUp() override {
-    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path{testing::TempDir()} / fmt::format("bleedsim_{}_{}", test->name(), getpid());
-    ASSERT_TRUE(std::filesystem::create_directories(folder_));
     auto participant = transport::Participant::create({.domain = 81, .tag = fmt::format("r{}", getpid())});
     ASSERT_TRUE(participant.ok()) << participant.status().message();
     auto source = LiveSource::create(*participant, "theatre");
@@ -36,14 +34,10 @@ class LiveRecording : public testing::Test {
     source_.emplace(std::move(*source));
     participant_.emplace(*participant);
   }
-  void TearDown() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
 
   LiveSource& source() { return *source_; }
   std::filesystem::path file() const { return folder_ / "live.mcap"; }
-  std::filesystem::path folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_; }
 
   void startRecorder() {
     auto recorder = StreamRecorder::create(*participant_, "theatre", file());
@@ -80,7 +74,8 @@ class LiveRecording : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  const test::TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
   std::optional<transport::Participant> participant_;
   std::optional<LiveSource> source_;
   std::optional<StreamRecorder> recorder_;

@@ -9,6 +9,7 @@
 
 #include "tests/integration/service/notify_socket.h"
 #include "tests/integration/service/probe.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::service_test {
 namespace {
@@ -20,23 +21,14 @@ using testing::Not;
 
 class DaemonLogTest : public ServiceTest {
  protected:
-  void SetUp() override {
-    ServiceTest::SetUp();
-    folder_ = fs::temp_directory_path() / ("bleedsim-daemon-log-" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override {
-    fs::remove_all(folder_);
-    ServiceTest::TearDown();
-  }
-
   std::string file(const char* name = "bleedd.log") const { return (folder_ / name).string(); }
   static std::string textOf(const std::string& path) {
     std::ifstream stream{path};
     return {std::istreambuf_iterator<char>{stream}, {}};
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(DaemonLogTest, IsReopenedOnSighup) {

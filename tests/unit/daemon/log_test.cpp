@@ -11,6 +11,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "tests/support/temporary_folder.h"
+
 namespace bleedsim::daemon {
 namespace {
 
@@ -21,14 +23,7 @@ using testing::Not;
 
 class LogTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path{testing::TempDir()} / ("bleedsim_log_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override {
-    spdlog::set_default_logger(before_);
-    fs::remove_all(folder_);
-  }
+  void TearDown() override { spdlog::set_default_logger(before_); }
 
   std::string path(const std::string& name = "bleedd.log") const { return (folder_ / name).string(); }
   static std::string textOf(const std::string& file) {
@@ -36,7 +31,8 @@ class LogTest : public testing::Test {
     return {std::istreambuf_iterator<char>{stream}, {}};
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
   std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
 };
 

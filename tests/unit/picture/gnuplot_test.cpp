@@ -9,10 +9,13 @@
 
 #include "service/picture/plot.h"
 #include "service/picture/png_file.h"
-#include "tests/unit/picture/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::picture::test {
 namespace {
+
+using bleedsim::test::contentOf;
+using bleedsim::test::TemporaryFolder;
 
 using testing::HasSubstr;
 

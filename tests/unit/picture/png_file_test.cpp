@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "tests/unit/picture/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace bleedsim::picture::test {
 namespace {
+
+using bleedsim::test::contentOf;
+using bleedsim::test::TemporaryFolder;
 
 using testing::HasSubstr;
 

@@ -8,12 +8,12 @@
 #include <stdexcept>
 #include <string>
 
-namespace bleedsim::picture::test {
+namespace bleedsim::test {
 
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "bleedsim-picture-XXXXXX").string();
+    std::string pattern = (std::filesystem::temp_directory_path() / "bleedsim-test-XXXXXX").string();
     if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error{"could not make a folder like " + pattern};
     path_ = pattern;
   }
@@ -39,4 +39,4 @@ inline std::string contentOf(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
 }
 
-}  // namespace bleedsim::picture::test
+}  // namespace bleedsim::test
