@@ -5,8 +5,8 @@ namespace bleedsim::daemon {
 
 enum class ExitCode : int {
   ok = 0,
-  failure = 1,     ///< middleware, system
-  usage = 2,       ///< command line, domain, interface or scene
+  failure = 1,     ///< middleware, interface, system
+  usage = 2,       ///< command line, domain, log file or scene
   name_taken = 3,  ///< another daemon runs the session
 };
 

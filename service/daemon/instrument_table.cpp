@@ -12,16 +12,21 @@ constexpr sph::ForceKey kFirstInstrumentKey = sph::ForceKey{1} << 63U;
 
 InstrumentTable::InstrumentTable() : next_key_{kFirstInstrumentKey} { tools_.reserve(dds::kMaxInstruments); }
 
-InstrumentTable::Update InstrumentTable::update(const InstrumentInput& input) {
+InstrumentTable::Update InstrumentTable::update(const InstrumentInput& input, std::uint64_t& missed) {
   const auto known =
       std::find_if(tools_.begin(), tools_.end(), [&input](const Tool& tool) { return tool.sample.key == input.sample.key; });
   if (known == tools_.end()) {
-    if (tools_.size() == dds::kMaxInstruments) return Update::full;
+    const auto of_client = static_cast<std::size_t>(std::count_if(
+        tools_.begin(), tools_.end(), [&](const Tool& tool) { return tool.sample.key.client == input.sample.key.client; }));
+    if (of_client >= dds::kMaxInstruments - tools_.size()) return Update::full;
     tools_.push_back({input.sample, input.received, next_key_++, true, {}});
     return Update::taken;
   }
   // Another writer is a client that started again: its numbers do, too.
-  if (known->sample.writer == input.sample.writer && input.sample.seq <= known->sample.seq) return Update::not_newer;
+  if (known->sample.writer == input.sample.writer) {
+    if (input.sample.seq <= known->sample.seq) return Update::not_newer;
+    missed += input.sample.seq - known->sample.seq - 1;
+  }
   known->sample = input.sample;
   known->received = input.received;
   known->pending = true;

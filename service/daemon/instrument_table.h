@@ -21,13 +21,15 @@ struct Tool {
   std::optional<dds::InstrumentApplied> applied;  ///< the newest sample that was
 };
 
-/// At most dds::kMaxInstruments tools. Belongs to the simulation thread; allocates nothing after construction.
+/// At most dds::kMaxInstruments tools. A client may have as many as there are free places, so that one alone has half of them and
+/// there is always a place for a client without any. Belongs to the simulation thread; allocates nothing after construction.
 class InstrumentTable {
  public:
   InstrumentTable();
 
   enum class Update { taken, full, not_newer };
-  Update update(const InstrumentInput& input);
+  /// `missed` is raised by the numbers that the tool's stream left out.
+  Update update(const InstrumentInput& input, std::uint64_t& missed);
 
   std::span<Tool> tools() { return tools_; }
   std::span<const Tool> tools() const { return tools_; }

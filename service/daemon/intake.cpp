@@ -12,6 +12,9 @@ namespace {
 
 enum Token : unsigned { kRequests, kInstruments, kWriters, kStop };
 
+// Until the queue has room again for what a lost writer leaves behind.
+constexpr std::chrono::milliseconds kRetry{20};
+
 }  // namespace
 
 Result<std::unique_ptr<Intake>> Intake::create(const transport::Participant& participant, const std::string& session,
@@ -37,11 +40,13 @@ void Intake::requestStop() { ends_.stop.raise(); }
 
 Status Intake::run() {
   for (;;) {
-    const Result<transport::WakeUp> woken = ends_.wait_set.wait(std::chrono::nanoseconds{-1});
+    const std::chrono::nanoseconds longest = lost_.empty() ? std::chrono::nanoseconds{-1} : kRetry;
+    const Result<transport::WakeUp> woken = ends_.wait_set.wait(longest);
     if (!woken) return woken.status();
     if (woken->has(kStop)) return {};
     if (Status drained = drain(); !drained) return drained;
     if (woken->has(kWriters)) noticeLostWriters();
+    tellOfLostWriters();
   }
 }
 
@@ -60,20 +65,42 @@ void Intake::noticeLostWriters() {
   std::vector<transport::PublicationHandle> alive = ends_.instruments.matchedPublications();
   const std::vector<transport::PublicationHandle> requesting = ends_.requests.matchedPublications();
   alive.insert(alive.end(), requesting.begin(), requesting.end());
-  for (const transport::PublicationHandle writer : writers_) {
-    if (std::find(alive.begin(), alive.end(), writer) != alive.end()) continue;
-    // Without room its tools and its lease end by their expiry.
-    static_cast<void>(channels_.commands.tryPush(WriterLost{writer}));
+  std::erase_if(senders_, [&](const auto& known) {
+    const auto& [writer, sender] = known;
+    if (std::find(alive.begin(), alive.end(), writer) != alive.end()) return false;
+    lost_.push_back({writer, sender});
+    return true;
+  });
+  for (const transport::PublicationHandle writer : alive) {
+    if (!senders_.contains(writer)) {
+      const std::uint64_t participant = ends_.requests.participantOf(writer);
+      senders_[writer] = participant != 0 ? participant : senderOf(ends_.instruments, writer);
+    }
   }
-  writers_ = std::move(alive);
+}
+
+void Intake::tellOfLostWriters() {
+  // In the order of the sender's own inputs: what it sent before is carried out before.
+  std::erase_if(lost_, [this](const WriterLost& lost) { return channels_.commands.tryPush(WriterLost{lost}); });
+}
+
+template <class T>
+std::uint64_t Intake::senderOf(const transport::Reader<T>& reader, transport::PublicationHandle writer) {
+  if (const auto known = senders_.find(writer); known != senders_.end()) return known->second;
+  const std::uint64_t participant = reader.participantOf(writer);
+  // Without one it is gone already, and nothing will tell that it is lost.
+  if (participant == 0) return writer;
+  return senders_[writer] = participant;
 }
 
 void Intake::takeRequest(const bleed_v1_Request& sample, transport::PublicationHandle writer) {
   const std::int64_t received = transport::monotonicNow();
   channels_.counters.add(ServiceCounter::requests);
   const dds::RequestKey key = dds::requestKey(sample);
-  channels_.clients.heard(key.origin.client, dds::ClientCount::requests, received);
-  ReplyCache::Answer known = channels_.reply_cache.begin(key);
+  const std::uint64_t sender = senderOf(ends_.requests, writer);
+  channels_.clients.heard(key.origin.client, dds::ClientCount::requests, received, sender);
+  ReplyCache::Answer known = channels_.reply_cache.begin(key, sender);
+  if (known.missed > 0) channels_.counters.add(ServiceCounter::requests_missed, known.missed);
   switch (known.known) {
     case ReplyCache::Known::fresh:
       break;
@@ -110,8 +137,8 @@ void Intake::takeRequest(const bleed_v1_Request& sample, transport::PublicationH
     send(std::move(reply));
     return;
   }
-  dds::DecodedRequest request{key,    std::move(*action), std::move(*wound_name),
-                              writer, received,           std::make_unique<dds::RequestCopy>(sample)};
+  dds::DecodedRequest request{
+      key, std::move(*action), std::move(*wound_name), writer, sender, received, std::make_unique<dds::RequestCopy>(sample)};
   if (channels_.commands.tryPush(std::move(request))) return;
   channels_.counters.add(ServiceCounter::requests_busy);
   channels_.clients.note(key.origin.client, dds::ClientCount::busy);
@@ -124,7 +151,8 @@ void Intake::takeRequest(const bleed_v1_Request& sample, transport::PublicationH
 void Intake::takeInstrument(const bleed_v1_Instrument& sample, transport::PublicationHandle writer) {
   channels_.counters.add(ServiceCounter::instrument_samples);
   const dds::Uuid client = transport::toUuid(sample.client);
-  channels_.clients.heard(client, dds::ClientCount::instrument_samples, transport::monotonicNow());
+  const std::uint64_t sender = senderOf(ends_.instruments, writer);
+  channels_.clients.heard(client, dds::ClientCount::instrument_samples, transport::monotonicNow(), sender);
   const auto reject = [&](ServiceCounter why) {
     channels_.counters.add(why);
     channels_.clients.note(client, dds::ClientCount::instruments_rejected);
@@ -135,6 +163,7 @@ void Intake::takeInstrument(const bleed_v1_Instrument& sample, transport::Public
     return;
   }
   decoded->writer = writer;
+  decoded->sender = sender;
   if (!channels_.commands.tryPush(InstrumentInput{std::move(*decoded), Clock::now()})) {
     reject(ServiceCounter::instruments_dropped);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -37,6 +38,10 @@ class Intake {
 
   Status drain();
   void noticeLostWriters();
+  void tellOfLostWriters();
+  /// The participant of a writer; it alone may know whether two writers are one client's.
+  template <class T>
+  std::uint64_t senderOf(const transport::Reader<T>& reader, transport::PublicationHandle writer);
   dds::Reply replyTo(const dds::RequestKey& key, std::int64_t received) const;
   void noteResent(const dds::RequestKey& key);
   void refuse(dds::Reply reply, const Status& why);
@@ -44,7 +49,8 @@ class Intake {
 
   Ends ends_;
   Channels& channels_;
-  std::vector<transport::PublicationHandle> writers_;
+  std::map<transport::PublicationHandle, std::uint64_t> senders_;  // of the writers there are
+  std::vector<WriterLost> lost_;                                   // that the simulation was not told of yet
 };
 
 }  // namespace bleedsim::daemon

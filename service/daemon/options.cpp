@@ -22,8 +22,9 @@ constexpr double kMaxDuration = 1e9;
 constexpr const char* kFooter =
     "Exit codes:\n"
     "  0  ended as asked: by a shutdown request, --duration, SIGINT or SIGTERM\n"
-    "  1  failure of the network or the system, or ended at once by a second SIGINT or SIGTERM\n"
-    "  2  wrong command line, domain, interface, log file or scene: trying again does not help\n"
+    "  1  failure of the network (an interface that is missing or down) or the system, or ended at once by a second SIGINT or "
+    "SIGTERM\n"
+    "  2  wrong command line, domain, log file or scene: trying again does not help\n"
     "  3  another bleedd runs a session of this name\n"
     "SIGHUP opens --log-file anew, for tools that rotate logs. Without a log file and a service manager it is as SIGTERM.\n"
     "A solver that stops on bad numbers does not end bleedd: the session is then 'faulted' until a reset or another scene.\n"

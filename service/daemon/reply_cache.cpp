@@ -4,20 +4,31 @@
 
 namespace bleedsim::daemon {
 
-ReplyCache::Answer ReplyCache::begin(const dds::RequestKey& key) {
-  const std::lock_guard lock{mutex_};
-  auto place = places_.find(key.origin);
-  if (place == places_.end()) {
-    if (clients_.size() == kClients) {
-      places_.erase(clients_.back().origin);
-      clients_.pop_back();
-    }
-    clients_.push_front({.origin = key.origin, .requests = {}});
-    place = places_.emplace(key.origin, clients_.begin()).first;
-  } else {
+void ReplyCache::forgetOne() {
+  const auto most =
+      std::max_element(starts_.begin(), starts_.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto last =
+      std::find_if(clients_.rbegin(), clients_.rend(), [&](const Client& one) { return one.sender == most->first; });
+  places_.erase(last->origin);
+  clients_.erase(std::prev(last.base()));
+  if (--most->second == 0) starts_.erase(most);
+}
+
+ReplyCache::Client& ReplyCache::find(const dds::ClientRun& origin, std::uint64_t sender) {
+  if (const auto place = places_.find(origin); place != places_.end()) {
     clients_.splice(clients_.begin(), clients_, place->second);
+    return *place->second;
   }
-  Client& client = *place->second;
+  if (clients_.size() == kClients) forgetOne();
+  clients_.push_front({.origin = origin, .sender = sender, .requests = {}});
+  places_.emplace(origin, clients_.begin());
+  ++starts_[sender];
+  return clients_.front();
+}
+
+ReplyCache::Answer ReplyCache::begin(const dds::RequestKey& key, std::uint64_t sender) {
+  const std::lock_guard lock{mutex_};
+  Client& client = find(key.origin, sender);
   if (const auto known = client.requests.find(key.seq); known != client.requests.end()) {
     if (!known->second) return {Known::in_work, {}};
     return {Known::answered, known->second};
@@ -31,7 +42,10 @@ ReplyCache::Answer ReplyCache::begin(const dds::RequestKey& key) {
     client.requests.erase(oldest);
     if (dropped_itself) return {Known::stale, {}};
   }
-  return {Known::fresh, {}};
+  Answer fresh;
+  if (client.highest > 0 && key.seq > client.highest) fresh.missed = key.seq - client.highest - 1;
+  client.highest = std::max(client.highest, key.seq);
+  return fresh;
 }
 
 void ReplyCache::finish(const dds::Reply& reply) {

@@ -29,9 +29,8 @@ Result<std::unique_ptr<Service>> Service::create(const ServiceOptions& options, 
   if (Status name = transport::checkSessionName(options.session); !name) return name;
   const Result<transport::Participant> participant = transport::Participant::create(options.participant);
   if (!participant) {
-    const StatusCode code = participant.status().code();
-    const bool given_wrong =
-        code == StatusCode::invalid_argument || code == StatusCode::not_found || code == StatusCode::unavailable;
+    // An interface that is missing or down may come yet.
+    const bool given_wrong = participant.status().code() == StatusCode::invalid_argument;
     return Status{given_wrong ? StatusCode::invalid_argument : StatusCode::io, participant.status().message()};
   }
   std::unique_ptr<Service> service{new Service{makeIdentity(options.session)}};

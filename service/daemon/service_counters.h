@@ -17,10 +17,12 @@ enum class ServiceCounter {
   requests_resent,        ///< known requests that came again
   requests_busy,          ///< refused because the command queue was full
   requests_stale,         ///< older than the replies that are kept
+  requests_missed,        ///< numbers left out in a client's requests: lost on the way, they are usually sent again
   instrument_samples,     ///< samples on the instrument topic
   instruments_malformed,  ///< with a value out of range
   instruments_dropped,    ///< too many tools, the command queue full, or not newer than the one before
   instruments_refused,    ///< refused by the world: out of its domain, without the applied-force effect, in a scene being loaded
+  instruments_missed,     ///< numbers left out in a tool's stream: lost on the way, or dropped here
   instruments_ended,      ///< silent, refused after they had pushed, or lost
   journal_lost,           ///< inputs that the journal had no room for
   replies_lost,           ///< replies that found no room; the client asks again
@@ -29,13 +31,13 @@ enum class ServiceCounter {
 };
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(ServiceCounter::count)> kServiceCounterNames{
-    "requests",           "requests_refused",      "requests_resent",     "requests_busy",       "requests_stale",
-    "instrument_samples", "instruments_malformed", "instruments_dropped", "instruments_refused", "instruments_ended",
-    "journal_lost",       "replies_lost",          "write_failures"};
+    "requests",           "requests_refused",   "requests_resent",       "requests_busy",       "requests_stale",
+    "requests_missed",    "instrument_samples", "instruments_malformed", "instruments_dropped", "instruments_refused",
+    "instruments_missed", "instruments_ended",  "journal_lost",          "replies_lost",        "write_failures"};
 
 class ServiceCounters {
  public:
-  void add(ServiceCounter counter) { slot(counter).fetch_add(1, std::memory_order_relaxed); }
+  void add(ServiceCounter counter, std::uint64_t count = 1) { slot(counter).fetch_add(count, std::memory_order_relaxed); }
   std::uint64_t value(ServiceCounter counter) const {
     return values_[static_cast<std::size_t>(counter)].load(std::memory_order_relaxed);
   }

@@ -6,9 +6,12 @@ namespace bleedsim::daemon {
 void Simulation::takeSample(const InstrumentInput& input, TimePoint now) {
   if (pending_load_ || faulted_ || lease_.bars(input.sample.key.client, now)) {
     rejectSample(input.sample, ServiceCounter::instruments_refused);
-  } else if (instruments_.update(input) != InstrumentTable::Update::taken) {
-    rejectSample(input.sample, ServiceCounter::instruments_dropped);
+    return;
   }
+  std::uint64_t missed = 0;
+  const InstrumentTable::Update update = instruments_.update(input, missed);
+  if (missed > 0) channels_.counters.add(ServiceCounter::instruments_missed, missed);
+  if (update != InstrumentTable::Update::taken) rejectSample(input.sample, ServiceCounter::instruments_dropped);
 }
 
 void Simulation::rejectSample(const dds::InstrumentSample& sample, ServiceCounter why) {

@@ -92,6 +92,7 @@ struct DecodedRequest {
   Action action;
   std::string wound_name{};               ///< of the wound to change or close, if it is not named by its id
   std::uint64_t writer = 0;               ///< who sent it: transport::PublicationHandle
+  std::uint64_t sender = 0;               ///< whose writer that is: takes turns with the others in the command queue
   std::int64_t receive_stamp_ns = 0;      ///< CLOCK_MONOTONIC
   std::unique_ptr<RequestCopy> original;  ///< for the journal
 };
@@ -105,6 +106,7 @@ struct InstrumentSample {
   double radius = 0.0;                     ///< m, of the tip
   sph::Vec3 force = sph::Vec3::Zero();     ///< N, on the fluid
   std::uint64_t writer = 0;                ///< who sent it: transport::PublicationHandle
+  std::uint64_t sender = 0;                ///< whose writer that is
   bleed_v1_Instrument original{};          ///< for the journal
 };
 

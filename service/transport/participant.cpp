@@ -7,10 +7,12 @@ namespace bleedsim::transport {
 Result<Participant> Participant::create(const ParticipantOptions& options) {
   Result<std::shared_ptr<DomainShare>> domain = joinDomain(options);
   if (!domain) return domain.status();
-  Result<Entity> participant = Entity::adopt(dds_create_participant(options.domain, nullptr, nullptr),
-                                             fmt::format("join DDS domain {} (is another configuration in CYCLONEDDS_URI, or are "
-                                                         "there more than 100 participants on this host?)",
-                                                         options.domain));
+  Result<Entity> participant =
+      Entity::adopt(dds_create_participant(options.domain, nullptr, nullptr),
+                    fmt::format("join DDS domain {}: see whether CYCLONEDDS_URI names a wrong configuration; "
+                                "otherwise a hundred programs of this host are on the domain already, "
+                                "so end some or choose another",
+                                options.domain));
   if (!participant) return participant.status();
   auto core = std::make_shared<Core>();
   core->domain = std::move(*domain);

@@ -89,6 +89,15 @@ class Reader {
     return out;
   }
 
+  /// The participant, usually a process, that a matching writer belongs to; 0: the writer is gone.
+  std::uint64_t participantOf(PublicationHandle writer) const {
+    dds_builtintopic_endpoint_t* const found = dds_get_matched_publication_data(handle(), writer);
+    if (found == nullptr) return 0;
+    const std::uint64_t participant = found->participant_instance_handle;
+    dds_builtintopic_free_endpoint(found);
+    return participant;
+  }
+
   dds_entity_t handle() const { return endpoint_.entity.get(); }
 
  private:

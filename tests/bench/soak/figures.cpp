@@ -32,12 +32,19 @@ std::vector<Row> rows(const Figures& quiet, const Figures& loud) {
       both("reply_p50_ms", "reply to a command, median, ms", [](const Figures& f) { return percentile(f.reply_ms, 0.5); }),
       both("reply_p99_ms", "reply, 99th percentile, ms", [](const Figures& f) { return percentile(f.reply_ms, 0.99); }),
       both("reply_max_ms", "reply, longest, ms", [](const Figures& f) { return percentile(f.reply_ms, 1.0); }),
+      both("replies_in_50_ms", "replies within 50 ms, %",
+           [&](const Figures& f) {
+             const auto within = std::count_if(f.reply_ms.begin(), f.reply_ms.end(), [](double ms) { return ms <= 50.0; });
+             return 100.0 * rate(static_cast<double>(within), static_cast<double>(f.reply_ms.size()));
+           }),
       both("commands", "commands", [](const Figures& f) { return static_cast<double>(f.reply_ms.size()); }),
       both("commands_lost", "commands without an answer", [](const Figures& f) { return static_cast<double>(f.commands_lost); }),
       both("busy", "commands answered busy", [](const Figures& f) { return static_cast<double>(f.busy); }),
       both("gaps", "frames missing", [](const Figures& f) { return static_cast<double>(f.gaps); }),
       both("memory_first_mib", "resident memory at the start, MiB",
            [](const Figures& f) { return f.memory_mib.empty() ? 0.0 : f.memory_mib.front(); }),
+      both("memory_middle_mib", "resident memory in the middle, MiB",
+           [](const Figures& f) { return f.memory_mib.empty() ? 0.0 : f.memory_mib[f.memory_mib.size() / 2]; }),
       both("memory_last_mib", "resident memory at the end, MiB",
            [](const Figures& f) { return f.memory_mib.empty() ? 0.0 : f.memory_mib.back(); }),
       both("memory_max_mib", "resident memory, most, MiB", [](const Figures& f) { return percentile(f.memory_mib, 1.0); }),
@@ -62,9 +69,12 @@ double residentMiB(int pid) {
 }
 
 std::string table(const Figures& quiet, const Figures& loud) {
-  std::string out = fmt::format("| {:<36} | {:>10} | {:>10} |\n|{:-<38}|{:->12}|{:->12}|\n", "", "quiet", "loud", "", ":", ":");
-  for (const Row& row : rows(quiet, loud))
-    out += fmt::format("| {:<36} | {:>10.4g} | {:>10.4g} |\n", row.title, row.quiet, row.loud);
+  std::string out = fmt::format("| {:<36} | {:>10} | {:>10} | {:>6} |\n|{:-<38}|{:->12}|{:->12}|{:->8}|\n", "", "quiet", "loud",
+                                "ratio", "", ":", ":", ":");
+  for (const Row& row : rows(quiet, loud)) {
+    const std::string ratio = row.quiet > 0.0 ? fmt::format("{:.3g}", row.loud / row.quiet) : std::string{};
+    out += fmt::format("| {:<36} | {:>10.4g} | {:>10.4g} | {:>6} |\n", row.title, row.quiet, row.loud, ratio);
+  }
   return out;
 }
 

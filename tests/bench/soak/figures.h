@@ -27,7 +27,7 @@ double percentile(std::vector<double> values, double p);
 /// MiB that the process has resident; 0 if it is gone.
 double residentMiB(int pid);
 
-/// Two columns, with their ratio.
+/// Two columns, and loud over quiet.
 std::string table(const Figures& quiet, const Figures& loud);
 std::string json(const Figures& quiet, const Figures& loud);
 

@@ -1,6 +1,8 @@
-// Soak: bleedd with 20 000 particles published 60 times a second for N minutes. In the first half one client watches and
-// commands; in the second half ten more do all that trainers do wrong. Prints both halves beside each other.
+// Soak: bleedd with 20 000 particles, published about 60 times a second, for N minutes. In the first half one client watches and
+// commands; in the second half ten more do all that trainers do wrong. Prints both halves beside each other. Fails when a command
+// is lost, when one of the ten has ended by itself, or when bleedd does not end as asked.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -26,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPatience = 30s;
 constexpr auto kCommandPeriod = 100ms;
 constexpr auto kTreatmentPeriod = 5s;
+constexpr auto kWarmUp = 5s;
 
 struct Options {
   double minutes = 30.0;
@@ -35,15 +38,17 @@ struct Options {
   bool json = false;
 };
 
-/// A still pool of 20 000 particles, 1 mm apart, and a wound that bleeds into it.
+constexpr double kFrameRate = 60.0;  // a second of wall time
+
+/// A still pool of 20 000 particles, 4 mm apart, and a wound that bleeds into it.
 constexpr const char* kScene = R"(name: "soak"
-domain { lower_m { z: -0.006 } upper_m { x: 0.04 y: 0.04 z: 0.04 } periodic_x: true periodic_y: true capacity: 24000 }
-resolution { spacing_m: 0.001 }
-compressibility { design_speed_m_per_s: 0.3 max_fall_or_depth_m: 0.02 }
+domain { lower_m { z: -0.02 } upper_m { x: 0.4 y: 0.4 z: 0.1 } periodic_x: true periodic_y: true capacity: 24000 }
+resolution { spacing_m: 0.004 }
+compressibility { design_speed_m_per_s: 0.3 max_fall_or_depth_m: 0.01 }
 effects { gravity {} pressure {} viscosity {} applied_force {} }
 tissue { plane { normal { z: 1 } } }
-fluid_blocks { lower_m { z: 0.0 } upper_m { x: 0.04 y: 0.04 z: 0.012 } }
-wounds { name: "cut" position_m { x: 0.02 y: 0.02 } disc { radius_m: 0.003 } flow_ml_per_s: 0.5 }
+fluid_blocks { lower_m { z: 0.0 } upper_m { x: 0.4 y: 0.4 z: 0.008 } }
+wounds { name: "cut" position_m { x: 0.2 y: 0.2 } disc { radius_m: 0.01 } flow_ml_per_s: 0.5 }
 )";
 
 double milliseconds(Clock::duration time) { return std::chrono::duration<double, std::milli>{time}.count(); }
@@ -87,6 +92,17 @@ class Monitor {
     return now_;
   }
 
+  /// Frames for kFrameRate of them a second of wall time, at the speed that the machine has now.
+  void chooseFrameRate() {
+    std::this_thread::sleep_for(kWarmUp);
+    const auto status = session_->status();
+    const double factor = status ? status->real_time_factor : 0.0;
+    const double rate = std::clamp(factor > 0.0 ? kFrameRate / factor : 1000.0, 1.0, 1000.0);
+    const client::Reply reply = session_->output({.rate_hz = rate}).get();
+    if (!reply.accepted()) throw std::runtime_error{reply.reason};
+    fmt::print(stderr, "soak: {:.3f} simulated seconds a second, {:.0f} frames in each of them\n", factor, rate);
+  }
+
   client::Session& session() { return *session_; }
 
  private:
@@ -125,6 +141,16 @@ class Crowd {
   ~Crowd() {
     for (Player& player : players_) player.process->signal(SIGCONT);
   }
+  /// How many have ended without being killed.
+  std::size_t deserters() {
+    std::size_t count = 0;
+    for (Player& player : players_) {
+      if (!player.process->wait(std::chrono::milliseconds{0})) continue;
+      fmt::print(stderr, "soak: '{}' has ended: {}\n", player.role.name, player.process->output());
+      ++count;
+    }
+    return count;
+  }
   void treat() {
     if (Clock::now() < next_) return;
     next_ += kTreatmentPeriod;
@@ -162,18 +188,21 @@ int run(const Options& options, const std::string& self) {
   const std::string scene = fmt::format("/tmp/bleedsim-soak-{}.textproto", getpid());
   std::ofstream{scene} << kScene;
   const Place place{options.domain, "soak"};
-  // As fast as the machine can, so that it is busy: some 0.06 simulated seconds a second, 1000 frames in each of them.
-  test::ChildProcess daemon{{options.bleedd, "--scene", scene, "--session", place.session, "--domain",
-                             std::to_string(place.domain), "--pace", "max", "--frame-rate", "1000"}};
+  // As fast as the machine can, so that it is busy.
+  test::ChildProcess daemon{
+      {options.bleedd, "--scene", scene, "--session", place.session, "--domain", std::to_string(place.domain), "--pace", "max"}};
   Monitor monitor{place, daemon.pid()};
+  monitor.chooseFrameRate();
   const auto half = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{options.minutes * 30.0});
   fmt::print(stderr, "soak: the quiet half, {:.1f} minutes\n", options.minutes / 2);
   const Figures quiet = monitor.watch(half, [](int) {});
   fmt::print(stderr, "soak: the loud half, {:.1f} minutes\n", options.minutes / 2);
   Figures loud;
+  std::size_t deserters = 0;
   {
     Crowd crowd{self, place};
     loud = monitor.watch(half, [&crowd](int) { crowd.treat(); });
+    deserters = crowd.deserters();
     if (const auto status = monitor.session().status(); status && !options.json) {
       for (const auto& [name, value] : status->counters) {
         if (value > 0) fmt::print("{:<24} {}\n", name, value);
@@ -185,7 +214,9 @@ int run(const Options& options, const std::string& self) {
   std::remove(scene.c_str());
   fmt::print("{}", options.json ? json(quiet, loud) : table(quiet, loud));
   if (code != 0) fmt::print(stderr, "soak: bleedd ended with {}:\n{}", code.value_or(-1), daemon.output());
-  return code == 0 ? 0 : 1;
+  const std::uint64_t lost = quiet.commands_lost + loud.commands_lost;
+  if (lost > 0) fmt::print(stderr, "soak: {} commands got no answer\n", lost);
+  return code == 0 && lost == 0 && deserters == 0 ? 0 : 1;
 }
 
 int soak(int argc, char** argv) {

@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <deque>
 #include <fmt/core.h>
+#include <future>
 #include <limits>
 #include <thread>
 
@@ -24,6 +26,8 @@ using transport::Writer;
 constexpr auto kPatience = 30s;
 constexpr int kFloodPerMillisecond = 10;  // 10 kHz
 constexpr int kBurst = 7000;              // of 150 bytes: 1 MB
+
+constexpr std::size_t kCommandsUnderWay = 100;
 
 /// The raw end of the wire: what the client library would not send.
 struct RawClient {
@@ -113,15 +117,30 @@ void holdStaleClocks(RawClient& raw) {
   }
 }
 
-int subscribe(const Place& place, client::Delivery delivery, std::chrono::milliseconds between) {
+/// `command`: with a command for each frame, whose answer nobody waits for.
+int subscribe(const Place& place, client::Delivery delivery, std::chrono::milliseconds between, bool command = false) {
   auto client = client::Client::create({.domain = place.domain});
   if (!client) return 1;
   auto session = client->open(place.session, {.delivery = delivery}, kPatience);
   if (!session) return 1;
+  std::deque<std::future<client::Reply>> replies;
   for (;;) {
     static_cast<void>(session->waitFrame(1s).ok());
+    if (command) {
+      replies.push_back(session->updateWound("cut", {.flow_ml_per_s = 0.5}));
+      if (replies.size() > kCommandsUnderWay) replies.pop_front();
+    }
     std::this_thread::sleep_for(between);
   }
+}
+
+/// Reads what a recorder reads: the journal, too, which is reliable and kept for late joiners.
+int stallWithTheJournal(const Place& place) {
+  Result<Participant> participant = Participant::create({.domain = place.domain});
+  if (!participant) return 1;
+  auto journal = transport::Reader<bleed_v1_Journal>::create(*participant, place.session);
+  if (!journal) return 1;
+  return subscribe(place, client::Delivery::queue, 0ms);
 }
 
 int joinAndLeave(const Place& place) {
@@ -156,7 +175,7 @@ const std::vector<Role>& roles() {
       {"nonsense", "NaN, unknown requests, values out of range", Treatment::leave},
       {"same-uuid", "starts again five times a second under one uuid", Treatment::leave},
       {"stale-clock", "stamps of 1970 and of the year 2262", Treatment::leave},
-      {"stall", "a reliable reader that is stopped for 5 s of every 10 s", Treatment::stall},
+      {"stall", "a reader of frames and journal, reliable, that is stopped for 5 s of every 10 s", Treatment::stall},
       {"die", "a reader and commander that is killed every 5 s and returns", Treatment::kill},
       {"slow", "a live reader that takes one frame a second", Treatment::leave},
       {"joiner", "joins, takes a frame, leaves, without end", Treatment::leave},
@@ -166,7 +185,8 @@ const std::vector<Role>& roles() {
 }
 
 int play(std::string_view role, const Place& place) {
-  if (role == "stall" || role == "die") return subscribe(place, client::Delivery::queue, 0ms);
+  if (role == "stall") return stallWithTheJournal(place);
+  if (role == "die") return subscribe(place, client::Delivery::queue, 0ms, true);
   if (role == "slow") return subscribe(place, client::Delivery::newest, 1000ms);
   if (role == "joiner") return joinAndLeave(place);
   if (role == "crowd") return crowd(place);

@@ -97,10 +97,16 @@ TEST(NetworkDrop, ATrainerComesBackByItself) {
   auto tool = session->instrument(1, "PSM1");
   ASSERT_TRUE(tool.ok()) << tool.status().message();
 
+  ASSERT_TRUE(tool->send({.position = {0.0, 0.0, 0.005}, .tip_radius_m = 0.01}).ok());
+  const std::uint64_t number_before = tool->lastSeq();
+
   ASSERT_TRUE(cable.pullOut());
+  const client::Reply unanswered = session->resume().get();
+  EXPECT_EQ(unanswered.code, client::ReplyCode::no_answer) << unanswered.reason;
   ASSERT_TRUE(wait([&] { return !connection.connected; }));
   // Until the lease of the participant has run out as well, on both ends: nothing of the old match is left.
   while (!client->sessions().empty()) client->listSessions(100ms);
+  EXPECT_FALSE(session->waitAlive(13s)) << "some 15 s without the network";
   while (session->tryTakeFrame() != nullptr) {}
   const std::uint64_t received = session->frameCounters().received;
 
@@ -126,6 +132,7 @@ TEST(NetworkDrop, ATrainerComesBackByItself) {
     if (changed.wait_for(lock, 20ms, used)) break;
   }
   EXPECT_TRUE(wait(used)) << "the tool reaches it again";
+  EXPECT_GT(tool->lastSeq(), number_before) << "its numbers go on";
   EXPECT_TRUE(session->shutdown().get().accepted());
   EXPECT_EQ(daemon.wait(), 0) << daemon.output();
 }

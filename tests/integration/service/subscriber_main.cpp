@@ -1,4 +1,5 @@
-// Reads the frames of a session for ever: service_subscriber DOMAIN SESSION. Says "reading" once the first has come.
+// Reads the frames and the journal of a session for ever, as a recorder does: service_subscriber DOMAIN SESSION. Says "reading"
+// once the first frame has come.
 #include <cstdio>
 #include <cstdlib>
 
@@ -12,12 +13,13 @@ int main(int argc, char** argv) {
   const auto participant = Participant::create(options);
   if (!participant) return 1;
   auto frames = Reader<bleed_v1_Frame>::create(*participant, argv[2], readerQos(Topic::frame, Reading::recorder));
+  auto journal = Reader<bleed_v1_Journal>::create(*participant, argv[2]);
   auto wait_set = WaitSet::create(*participant);
-  if (!frames || !wait_set || !wait_set->attach(*frames, 0)) return 1;
+  if (!frames || !journal || !wait_set || !wait_set->attach(*frames, 0) || !wait_set->attach(*journal, 1)) return 1;
   bool told = false;
   while (wait_set->wait(std::chrono::nanoseconds{-1})) {
     const auto taken = frames->take([](const Sample<bleed_v1_Frame>&) {});
-    if (!taken) return 1;
+    if (!taken || !journal->take([](const Sample<bleed_v1_Journal>&) {})) return 1;
     if (*taken > 0 && !told) {
       std::puts("reading");
       std::fflush(stdout);

@@ -1,5 +1,8 @@
 // Trainers that misbehave, and two that command one session: the others are served, the world steps on, and the status tells who
 // did what.
+#include <csignal>
+#include <fmt/core.h>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <limits>
 
@@ -26,6 +29,17 @@ bleed_v1_RequestBody namedWound(const char* name, double x) {
   });
 }
 
+/// MiB that a process has, or had at most, resident: `field` of /proc/PID/status.
+double residentMiB(pid_t pid, const std::string& field) {
+  std::ifstream status{fmt::format("/proc/{}/status", pid)};
+  for (std::string word; status >> word;) {
+    double kib = 0.0;
+    if (word == field + ":" && status >> kib) return kib / 1024.0;
+  }
+  ADD_FAILURE() << "no " << field << " of process " << pid;
+  return 0.0;
+}
+
 /// The world has made a step since.
 void expectSteps(Probe& probe) {
   const std::uint64_t step = probe.status().step;
@@ -39,7 +53,9 @@ TEST_F(ServiceTest, AFloodOfRequestsKeepsNobodyWaiting) {
   ASSERT_EQ(flooder.ask(paceOf(1.0)).code, kAccepted);
   std::uint64_t sent = 0;
   for (int round = 0; round < 10; ++round) {
-    for (int i = 0; i < 1000; ++i) sent += flooder.send(paceOf(1.0 + 1e-6 * i)) ? 1 : 0;
+    for (int i = 0; i < 1000; ++i) {
+      sent += flooder.send(i % 2 == 0 ? paceOf(1.0 + 1e-6 * i) : Probe::body(bleed_v1_REQUEST_PING)) ? 1 : 0;
+    }
     const bleed_v1_Reply reply = polite.ask(bleed_v1_REQUEST_RESUME);
     ASSERT_EQ(reply.code, kAccepted) << reply.reason;
   }
@@ -60,6 +76,7 @@ TEST_F(ServiceTest, ABurstOfInstrumentsKeepsNobodyWaiting) {
   Probe polite{domain(), "burst"};
   Probe flooder{domain(), "burst"};
   flooder.matchInstruments();
+  polite.matchInstruments();
   // Some 150 bytes each: 1 MB in one go, of more tools than a session has. What the middleware has no room for is lost at once,
   // and of the rest a daemon that gets no time for a while sees the newest 1024.
   std::uint64_t sent = 0;
@@ -70,12 +87,57 @@ TEST_F(ServiceTest, ABurstOfInstrumentsKeepsNobodyWaiting) {
   }
   EXPECT_GT(sent, 1000U);
   EXPECT_EQ(polite.ask(bleed_v1_REQUEST_RESUME).code, kAccepted);
+  polite.sendInstrument(1);
+  polite.journal([&polite](const bleed_v1_Journal& entry) {
+    return entry.body._d == bleed_v1_JOURNAL_INSTRUMENT && transport::toUuid(entry.body._u.instrument.client) == polite.client();
+  });
   expectSteps(polite);
   const StatusHead status =
       polite.status([&](const StatusHead& head) { return head.activityOf(flooder.client()).instrument_samples >= 1000; });
   EXPECT_GT(status.activityOf(flooder.client()).instruments_rejected, 0U);
   EXPECT_EQ(status.activityOf(polite.client()).instruments_rejected, 0U);
   EXPECT_EQ(polite.ask(bleed_v1_REQUEST_PAUSE).code, kAccepted);
+}
+
+TEST_F(ServiceTest, AFloodOfScenesTakesNoMemory) {
+  test::ChildProcess daemon{daemonCommand("scenes")};
+  Probe polite{domain(), "scenes"};
+  Probe flooder{domain(), "scenes"};
+  ASSERT_EQ(flooder.ask(paceOf(1.0)).code, kAccepted);
+  const double before = residentMiB(daemon.pid(), "VmRSS");
+  std::string text = "# " + std::string(1'000'000, 'x');
+  const auto load = Probe::body(bleed_v1_REQUEST_LOAD_SCENE, [&text](auto& body) { body._u.load_scene.text = text.data(); });
+  std::uint64_t sent = 0;
+  while (sent < 300) {
+    sent += flooder.send(load) ? 1 : 0;
+    if (sent % 50 == 0) { ASSERT_EQ(polite.ask(bleed_v1_REQUEST_PING).code, kAccepted); }
+  }
+  polite.status([&](const StatusHead& head) { return head.activityOf(flooder.client()).requests >= 200; });
+  // 300 MB came; a few texts wait, are read or stand in the middleware's buffers.
+  EXPECT_LT(residentMiB(daemon.pid(), "VmHWM") - before, 100.0);
+  const bleed_v1_Reply reply = polite.ask(bleed_v1_REQUEST_RESUME);
+  EXPECT_TRUE(reply.code == kAccepted || reply.code == bleed_v1_REPLY_STATE) << reply.reason;
+}
+
+TEST_F(ServiceTest, AStoppedRecorderHoldsNobodyUp) {
+  test::ChildProcess daemon{daemonCommand("stopped")};
+  Probe probe{domain(), "stopped"};
+  probe.matchInstruments();
+  test::ChildProcess recorder{{BLEEDSIM_SUBSCRIBER, std::to_string(domain()), "stopped"}};
+  ASSERT_TRUE(recorder.waitForOutput("reading"));
+  recorder.signal(SIGSTOP);
+  // Each sample becomes an entry of the journal, which the recorder reads reliably; far more than its socket holds.
+  for (std::uint64_t seq = 1; seq <= 5000; ++seq) {
+    probe.trySendInstrument(seq);
+    if (seq % 1000 == 0) { ASSERT_EQ(probe.ask(bleed_v1_REQUEST_RESUME).code, kAccepted); }
+  }
+  probe.sendInstrument(6000);
+  probe.journal([](const bleed_v1_Journal& entry) {
+    return entry.body._d == bleed_v1_JOURNAL_INSTRUMENT && entry.body._u.instrument.seq == 6000;
+  });
+  expectSteps(probe);
+  EXPECT_EQ(probe.status().counter("write_failures"), 0U);
+  recorder.signal(SIGCONT);
 }
 
 TEST_F(ServiceTest, NonsenseIsRefusedAndCountedByItsSender) {

@@ -23,9 +23,9 @@ class ClientLedgerTest : public testing::Test {
 };
 
 TEST_F(ClientLedgerTest, CountsByClient) {
-  ledger_.heard(Uuid{1}, ClientCount::requests, 10);
-  ledger_.heard(Uuid{2}, ClientCount::instrument_samples, 20);
-  ledger_.heard(Uuid{1}, ClientCount::requests, 30);
+  ledger_.heard(Uuid{1}, ClientCount::requests, 10, 7);
+  ledger_.heard(Uuid{2}, ClientCount::instrument_samples, 20, 7);
+  ledger_.heard(Uuid{1}, ClientCount::requests, 30, 7);
   ledger_.note(Uuid{1}, ClientCount::busy);
   ledger_.note(Uuid{3}, ClientCount::busy);
   const auto clients = read();
@@ -38,14 +38,25 @@ TEST_F(ClientLedgerTest, CountsByClient) {
 }
 
 TEST_F(ClientLedgerTest, ForgetsTheOneThatWasSilentLongest) {
-  for (std::uint8_t i = 1; i <= dds::kMaxClients; ++i) ledger_.heard(Uuid{i}, ClientCount::requests, i);
-  ledger_.heard(Uuid{1}, ClientCount::requests, 100);
-  ledger_.heard(Uuid{200}, ClientCount::requests, 101);
+  for (std::uint8_t i = 1; i <= dds::kMaxClients; ++i) ledger_.heard(Uuid{i}, ClientCount::requests, i, 7);
+  ledger_.heard(Uuid{1}, ClientCount::requests, 100, 7);
+  ledger_.heard(Uuid{200}, ClientCount::requests, 101, 7);
   const auto clients = read();
   ASSERT_EQ(clients.size(), dds::kMaxClients);
   EXPECT_EQ(clients[0].client, Uuid{1});
   EXPECT_EQ(clients[1].client, Uuid{3}) << "2 was silent longest";
   EXPECT_EQ(clients.back().client, Uuid{200});
+}
+
+TEST_F(ClientLedgerTest, WhoMakesUpClientsPushesOutHisOwn) {
+  ledger_.heard(Uuid{1}, ClientCount::requests, 1, 1);
+  ledger_.heard(Uuid{2}, ClientCount::requests, 2, 2);
+  for (std::uint8_t i = 10; i < 200; ++i) ledger_.heard(Uuid{i}, ClientCount::requests, i, 9);
+  const auto clients = read();
+  ASSERT_EQ(clients.size(), dds::kMaxClients);
+  EXPECT_EQ(clients[0].client, Uuid{1});
+  EXPECT_EQ(clients[1].client, Uuid{2});
+  EXPECT_EQ(clients.back().client, Uuid{199});
 }
 
 }  // namespace

@@ -84,10 +84,32 @@ TEST_F(SimulationTest, OlderSamplesAreDroppedUnlessTheClientStartedAgain) {
 
 TEST_F(SimulationTest, BoundsTheNumberOfTools) {
   start();
-  for (std::uint32_t tool = 0; tool < dds::kMaxInstruments + 3; ++tool) channels_.commands.tryPush(sample(1, 5, tool));
+  const std::uint32_t half = dds::kMaxInstruments / 2;
+  for (std::uint32_t tool = 0; tool < half + 3; ++tool) channels_.commands.tryPush(sample(1, 5, tool));
   tick();
-  EXPECT_EQ(log_->forces.size(), dds::kMaxInstruments);
+  EXPECT_EQ(log_->forces.size(), half) << "one client leaves room for the others";
   EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_dropped), 3U);
+  std::size_t held = half;
+  for (std::uint8_t client = 20; client < 60; ++client) {
+    for (std::uint32_t tool = 0; tool < half; ++tool) {
+      InstrumentInput input = sample(1, client, tool);
+      input.sample.key.client = dds::Uuid{client};
+      channels_.commands.tryPush(std::move(input));
+    }
+    ticks(2);
+    const std::size_t free = dds::kMaxInstruments - held;
+    held += (free + 1) / 2;
+    EXPECT_EQ(log_->forces.size(), held);
+  }
+  EXPECT_EQ(held, dds::kMaxInstruments);
+}
+
+TEST_F(SimulationTest, CountsTheSamplesThatNeverCame) {
+  start();
+  for (const std::uint64_t number : {10, 11, 15, 12}) channels_.commands.tryPush(sample(number));
+  channels_.commands.tryPush(sample(1, 77));
+  tick();
+  EXPECT_EQ(channels_.counters.value(ServiceCounter::instruments_missed), 3U);
 }
 
 TEST_F(SimulationTest, CountsSamplesThatTheWorldRefuses) {

@@ -54,8 +54,36 @@ TEST(BoundedQueue, KeepsTheOrderBetweenThreads) {
 
 TEST(CommandQueue, HoldsABoundedNumberOfInputs) {
   CommandQueue queue;
-  for (std::size_t i = 0; i < CommandQueue::kCapacity; ++i) ASSERT_TRUE(queue.tryPush(WriterLost{i}));
-  EXPECT_FALSE(queue.tryPush(WriterLost{0}));
+  for (std::size_t i = 0; i < CommandQueue::kCapacity; ++i) ASSERT_TRUE(queue.tryPush(WriterLost{i, i}));
+  EXPECT_FALSE(queue.tryPush(WriterLost{0, 0}));
+}
+
+TEST(CommandQueue, LimitsTheScenesThatWait) {
+  CommandQueue queue;
+  const auto load = [&queue](std::uint64_t sender) {
+    dds::DecodedRequest request;
+    request.sender = sender;
+    request.action = dds::LoadScene{"text"};
+    return queue.tryPush(std::move(request));
+  };
+  for (std::uint64_t sender = 1; sender <= CommandQueue::kMaxScenes; ++sender) {
+    EXPECT_TRUE(load(sender));
+    EXPECT_FALSE(load(sender)) << "one of each sender";
+  }
+  EXPECT_FALSE(load(99)) << "some of all";
+  EXPECT_TRUE(queue.tryPush(WriterLost{1, 1})) << "other inputs have room";
+  Input out;
+  ASSERT_TRUE(queue.tryPop(out));
+  EXPECT_TRUE(load(99)) << "a scene that was taken makes room";
+  EXPECT_FALSE(load(2));
+}
+
+TEST(CommandQueue, ASenderWithManyWritersIsOne) {
+  CommandQueue queue;
+  std::size_t taken = 0;
+  for (std::uint64_t writer = 0; writer < CommandQueue::kCapacity; ++writer)
+    taken += queue.tryPush(WriterLost{writer, 1}) ? 1 : 0;
+  EXPECT_EQ(taken, CommandQueue::kCapacity / 2);
 }
 
 TEST(Wakeup, KeepsANotificationUntilSomeoneWaits) {

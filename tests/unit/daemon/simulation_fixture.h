@@ -33,6 +33,7 @@ class SimulationTest : public testing::Test {
     request.action = std::move(action);
     request.wound_name = wound_name;
     request.writer = client;
+    request.sender = client;
     bleed_v1_Request original{};
     original.seq = seq_;
     request.original = std::make_unique<dds::RequestCopy>(original);
@@ -75,6 +76,7 @@ class SimulationTest : public testing::Test {
     input.sample.radius = 0.01;
     input.sample.force = {0.0, 0.0, static_cast<double>(number)};
     input.sample.writer = writer;
+    input.sample.sender = writer;
     input.received = now_;
     return input;
   }

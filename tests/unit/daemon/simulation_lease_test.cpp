@@ -58,7 +58,7 @@ TEST_F(LeaseTest, InstrumentsOfOthersLetGo) {
   ASSERT_TRUE(channels_.commands.tryPush(mine));
   tick();
   ASSERT_EQ(log_->forces.size(), 1U);
-  channels_.clients.heard(dds::Uuid{9}, dds::ClientCount::instrument_samples, 1);
+  channels_.clients.heard(dds::Uuid{9}, dds::ClientCount::instrument_samples, 1, 5);
   askAs(1, dds::AcquireLease{10.0});
   EXPECT_TRUE(log_->forces.empty());
   mine = sample(2);

@@ -1,6 +1,7 @@
 // Both ends in this process: matching, partitions, lent samples and every way a wait set wakes.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <string>
 #include <thread>
 #include <unistd.h>
@@ -19,10 +20,11 @@ using std::chrono::seconds;
 class Loopback : public testing::Test {
  protected:
   void SetUp() override {
-    auto made = Participant::create({.domain = 63, .tag = fmt::format("t{}", getpid())});
+    auto made = join();
     ASSERT_TRUE(made.ok()) << made.status().message();
     participant_.emplace(*made);
   }
+  static Result<Participant> join() { return Participant::create({.domain = 63, .tag = fmt::format("t{}", getpid())}); }
   const Participant& participant() const { return *participant_; }
 
  private:
@@ -130,6 +132,25 @@ TEST_F(Loopback, ALostWriterWakesAndItsPublicationIsGone) {
   }
   EXPECT_TRUE(waits->wait(seconds{10})->has(1));
   EXPECT_TRUE(reader->matchedPublications().empty());
+}
+
+TEST_F(Loopback, WritersTellWhoseTheyAre) {
+  const auto other = join();
+  ASSERT_TRUE(other.ok());
+  auto reader = Reader<bleed_v1_Instrument>::create(participant(), "whose");
+  auto one = Writer<bleed_v1_Instrument>::create(*other, "whose");
+  auto two = Writer<bleed_v1_Instrument>::create(*other, "whose");
+  auto own = Writer<bleed_v1_Instrument>::create(participant(), "whose");
+  auto waits = WaitSet::create(participant());
+  ASSERT_TRUE(reader.ok() && one.ok() && two.ok() && own.ok() && waits.ok());
+  ASSERT_TRUE(waits->attachMatches(*reader, 1).ok());
+  while (reader->matchedCount() < 3) ASSERT_TRUE(waits->wait(seconds{10})->has(1));
+  std::map<std::uint64_t, int> writers;
+  for (const PublicationHandle writer : reader->matchedPublications()) ++writers[reader->participantOf(writer)];
+  ASSERT_EQ(writers.size(), 2U);
+  EXPECT_EQ(writers.count(0), 0U);
+  EXPECT_EQ(writers.begin()->second + writers.rbegin()->second, 3);
+  EXPECT_EQ(reader->participantOf(12345), 0U) << "there is no such writer";
 }
 
 TEST_F(Loopback, AGuardWakesFromAnotherThread) {
