@@ -1,8 +1,7 @@
-// Soak: bleedd with 20 000 particles, published about 60 times a second, for N minutes. In the first half one client watches and
+// Soak: bleedd with 20 000 particles, published 60 times a second, for N minutes. In the first half one client watches and
 // commands; in the second half ten more do all that trainers do wrong. Prints both halves beside each other. Fails when a command
 // is lost, when one of the ten has ended by itself, or when bleedd does not end as asked.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -28,7 +27,6 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPatience = 30s;
 constexpr auto kCommandPeriod = 100ms;
 constexpr auto kTreatmentPeriod = 5s;
-constexpr auto kWarmUp = 5s;
 
 struct Options {
   double minutes = 30.0;
@@ -37,8 +35,6 @@ struct Options {
   std::string role;
   bool json = false;
 };
-
-constexpr double kFrameRate = 60.0;  // a second of wall time
 
 /// A still pool of 20 000 particles, 4 mm apart, and a wound that bleeds into it.
 constexpr const char* kScene = R"(name: "soak"
@@ -90,17 +86,6 @@ class Monitor {
     now_.wall_s = std::chrono::duration<double>{Clock::now() - start}.count();
     now_.gaps = session_->frameCounters().gaps - gaps;
     return now_;
-  }
-
-  /// Frames for kFrameRate of them a second of wall time, at the speed that the machine has now.
-  void chooseFrameRate() {
-    std::this_thread::sleep_for(kWarmUp);
-    const auto status = session_->status();
-    const double factor = status ? status->real_time_factor : 0.0;
-    const double rate = std::clamp(factor > 0.0 ? kFrameRate / factor : 1000.0, 1.0, 1000.0);
-    const client::Reply reply = session_->output({.rate_hz = rate}).get();
-    if (!reply.accepted()) throw std::runtime_error{reply.reason};
-    fmt::print(stderr, "soak: {:.3f} simulated seconds a second, {:.0f} frames in each of them\n", factor, rate);
   }
 
   client::Session& session() { return *session_; }
@@ -188,11 +173,10 @@ int run(const Options& options, const std::string& self) {
   const std::string scene = fmt::format("/tmp/bleedsim-soak-{}.textproto", getpid());
   std::ofstream{scene} << kScene;
   const Place place{options.domain, "soak"};
-  // As fast as the machine can, so that it is busy.
-  test::ChildProcess daemon{
-      {options.bleedd, "--scene", scene, "--session", place.session, "--domain", std::to_string(place.domain), "--pace", "max"}};
+  // 60 frames and some 130 steps a second of wall time: a third of a core or so, as a session that keeps its pace.
+  test::ChildProcess daemon{{options.bleedd, "--scene", scene, "--session", place.session, "--domain",
+                             std::to_string(place.domain), "--pace", "0.06", "--frame-rate", "1000"}};
   Monitor monitor{place, daemon.pid()};
-  monitor.chooseFrameRate();
   const auto half = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{options.minutes * 30.0});
   fmt::print(stderr, "soak: the quiet half, {:.1f} minutes\n", options.minutes / 2);
   const Figures quiet = monitor.watch(half, [](int) {});

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <future>
 #include <limits>
+#include <sys/resource.h>
 #include <thread>
 
 #include "bleedsim/client.h"
@@ -28,6 +29,7 @@ constexpr int kFloodPerMillisecond = 10;  // 10 kHz
 constexpr int kBurst = 7000;              // of 150 bytes: 1 MB
 
 constexpr std::size_t kCommandsUnderWay = 100;
+constexpr int kNice = 10;
 
 /// The raw end of the wire: what the client library would not send.
 struct RawClient {
@@ -185,6 +187,8 @@ const std::vector<Role>& roles() {
 }
 
 int play(std::string_view role, const Place& place) {
+  // They stand for clients on other hosts, whose work takes no time from the daemon's.
+  setpriority(PRIO_PROCESS, 0, kNice);
   if (role == "stall") return stallWithTheJournal(place);
   if (role == "die") return subscribe(place, client::Delivery::queue, 0ms, true);
   if (role == "slow") return subscribe(place, client::Delivery::newest, 1000ms);
