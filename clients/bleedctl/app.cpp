@@ -5,6 +5,7 @@
 
 #include "clients/bleedctl/context.h"
 #include "clients/bleedctl/stop_signal.h"
+#include "service/status/number_text.h"
 
 namespace bleedsim::bleedctl {
 namespace {

@@ -92,8 +92,4 @@ std::string checkVec3(const std::string& text) {
   return parsed.ok() ? std::string{} : parsed.status().message();
 }
 
-CLI::Validator finiteIn(double lower, double upper) {
-  return {[lower, upper](std::string& text) { return checkNumberText(text, lower, upper).message(); }, {}};
-}
-
 }  // namespace bleedsim::bleedctl

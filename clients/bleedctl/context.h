@@ -46,9 +46,6 @@ Result<client::Vec3> parseVec3(const std::string& text);
 /// A CLI11 check that refuses anything but three finite numbers.
 std::string checkVec3(const std::string& text);
 
-/// A CLI11 check of a floating option: a finite number from `lower` to `upper`.
-CLI::Validator finiteIn(double lower, double upper);
-
 /// One function for each group of commands; each adds its commands to the program.
 void addSessionCommands(CLI::App& app, Context& context);    // list, status, watch
 void addControlCommands(CLI::App& app, Context& context);    // pause, resume, reset, step, pace, load, shutdown

@@ -8,13 +8,12 @@
 #include <optional>
 
 #include "clients/bleedctl/context.h"
-#include "service/status/number_text.h"
+#include "service/status/pace_text.h"
 #include "service/status/request_limits.h"
 
 namespace bleedsim::bleedctl {
 namespace {
 
-using client::PaceMode;
 using client::Session;
 
 constexpr std::chrono::milliseconds kLook{50};
@@ -31,16 +30,6 @@ void addPlain(CLI::App& app, Context& context, const std::string& name, const st
       return connection ? finish(context, (connection->session.*request)(), done) : code;
     };
   });
-}
-
-Result<client::Pace> parsePace(const std::string& text) {
-  if (text == "realtime") return client::Pace{.mode = PaceMode::real_time};
-  if (text == "max") return client::Pace{.mode = PaceMode::maximum};
-  const std::optional<double> factor = parseNumber(text);
-  if (factor && *factor >= kMinPace && *factor <= kMaxPace) return client::Pace{.mode = PaceMode::factor, .factor = *factor};
-  return Status{
-      StatusCode::invalid_argument,
-      fmt::format("pace '{}' is not known: use realtime, max or a factor from {:g} to {:g}, as 0.5", text, kMinPace, kMaxPace)};
 }
 
 Result<std::string> readScene(const std::string& path) {
@@ -125,13 +114,13 @@ void addControlCommands(CLI::App& app, Context& context) {
       ->required()
       ->type_name("")
       ->check([](const std::string& text) {
-        const Result<client::Pace> parsed = parsePace(text);
+        const Result<client::Pace> parsed = parsePace<client::Pace>(text);
         return parsed.ok() ? std::string{} : parsed.status().message();
       });
   pace->callback([&context, mode] {
     context.action = [&context, mode] {
       int code = kDone;
-      const Result<client::Pace> parsed = parsePace(*mode);
+      const Result<client::Pace> parsed = parsePace<client::Pace>(*mode);
       if (!parsed) return fail(parsed.status());
       std::optional<Connection> connection = connect(context, commandsOnly(), code);
       return connection ? finish(context, connection->session.pace(*parsed), fmt::format("pace {}", *mode)) : code;

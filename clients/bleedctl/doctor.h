@@ -49,7 +49,7 @@ struct Finding {
   Severity severity = Severity::ok;
   const char* area = "";
   std::string text;
-  std::string remedy;  ///< of problems, and of notes that call for something
+  std::string remedy;  ///< what to do: of problems and notes
 };
 
 /// Reads host and domain; takes some seconds.

@@ -1,12 +1,12 @@
 // Reads what the doctor wants to know.
 #include <algorithm>
-#include <array>
 #include <unistd.h>
 
 #include "bleedsim/client.h"
 #include "clients/bleedctl/doctor.h"
 #include "service/transport/clock.h"
 #include "service/transport/domain.h"
+#include "service/transport/host_name.h"
 #include "service/transport/participant.h"
 #include "service/transport/receive_buffer.h"
 
@@ -19,11 +19,6 @@ constexpr std::chrono::seconds kAnswerTime{2};
 constexpr std::chrono::seconds kFrameTime{2};
 constexpr int kPings = 5;
 constexpr std::size_t kMaxQuestioned = 32;
-
-std::string hostName() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? std::string{name.data()} : std::string{};
-}
 
 std::size_t particleBytes(const client::Frame& frame) {
   if (frame.count() == 0) return 0;
@@ -90,7 +85,7 @@ DoctorFacts gatherFacts(const Context& context) {
   DoctorFacts facts;
   facts.version = BLEEDSIM_VERSION;
   facts.dds_version = transport::middlewareVersion();
-  facts.host = hostName();
+  facts.host = transport::hostName();
   facts.domain = context.connection.domain;
   facts.asked_interface = context.connection.interface;
   facts.asked_session = context.session;

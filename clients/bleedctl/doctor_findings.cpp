@@ -29,7 +29,7 @@ class Area {
  public:
   Area(Findings& findings, const char* name) : findings_{findings}, name_{name} {}
   void ok(std::string text) { findings_.push_back({Severity::ok, name_, std::move(text), {}}); }
-  void note(std::string text, std::string remedy = {}) {
+  void note(std::string text, std::string remedy) {
     findings_.push_back({Severity::note, name_, std::move(text), std::move(remedy)});
   }
   void problem(std::string text, std::string remedy) {
@@ -54,7 +54,8 @@ void findVersions(const DoctorFacts& facts, Area area) {
   for (const SessionFacts& session : facts.sessions) {
     const client::SessionStatus& status = session.status;
     if (!session.scene) {
-      area.note(fmt::format("session '{}': bleedd {}, its scene did not come", status.name, status.version));
+      area.note(fmt::format("session '{}': bleedd {}, its scene did not come", status.name, status.version),
+                "look below at what is said of the session; if it answers and this lasts, compare versions: 'bleedd --version'");
       continue;
     }
     const std::string text = fmt::format("session '{}': bleedd {} ({}), protocol {}.{}", status.name, status.version,
@@ -101,7 +102,11 @@ void findNetwork(const DoctorFacts& facts, Area area) {
 
 void findReceiveBuffer(const DoctorFacts& facts, Area area) {
   if (facts.receive_limit == 0) {
-    area.note("net.core.rmem_max cannot be read");
+    area.note(
+        "net.core.rmem_max cannot be read",
+        fmt::format("in a container it may be hidden: see on the host that 'sysctl net.core.rmem_max' gives {} or what frames "
+                    "need",
+                    transport::kReceiveBufferBytes));
     return;
   }
   const std::size_t granted = std::min(facts.receive_limit, transport::kReceiveBufferBytes);
@@ -123,7 +128,8 @@ void findReceiveBuffer(const DoctorFacts& facts, Area area) {
     area.ok(text);
   } else {
     area.note(text + fmt::format(": enough for frames of {} particles", granted / 2 / kUsualParticleBytes),
-              "for larger ones, config/systemd/60-bleedsim.conf");
+              fmt::format("for larger ones, the line net.core.rmem_max={} in a .conf file in /etc/sysctl.d, then sysctl --system",
+                          transport::kReceiveBufferBytes));
   }
 }
 
@@ -132,7 +138,8 @@ void findTime(const DoctorFacts& facts, Area area) {
   const bool hosts_differ = std::any_of(facts.sessions.begin(), facts.sessions.end(), on_other_host);
   const std::string remedy = "run a time service, as chrony or systemd-timesyncd, on every host";
   if (!facts.clock) {
-    area.note("the kernel does not tell whether the clock is synchronised");
+    area.note("the kernel does not tell whether the clock is synchronised",
+              "'timedatectl' or 'chronyc tracking' may; it matters once trainers and daemons are on several hosts");
   } else if (facts.clock->synchronised) {
     area.ok(fmt::format("this host's clock is synchronised, to {:.3f} s at worst", facts.clock->max_error_s));
   } else if (hosts_differ) {
@@ -214,16 +221,25 @@ void findLosses(const client::SessionStatus& status, Area& area) {
   struct Loss {
     std::string_view counter;
     const char* meaning;
+    const char* remedy;
   };
   constexpr std::array<Loss, 5> kLosses{
-      {{"journal_lost", "inputs that the journal had no room for: recordings of it cannot be replayed"},
-       {"replies_lost", "replies that found no room"},
-       {"write_failures", "samples that the middleware did not take"},
-       {"requests_busy", "commands refused because the queue was full"},
-       {"instruments_dropped", "instrument samples that were not used"}}};
+      {{"journal_lost", "inputs that the journal had no room for: recordings of it cannot be replayed",
+        "send fewer inputs a second; a reset begins an epoch whose recordings can be replayed"},
+       {"replies_lost", "replies that found no room",
+        "send fewer commands a second; the client library asks again by itself, other clients must repeat a request that gets "
+        "none"},
+       {"write_failures", "samples that the middleware did not take",
+        "look into its log, and at memory and network of its host: a reliable reader that hangs holds it up"},
+       {"requests_busy", "commands refused because the queue was full",
+        "wait for a reply before the next command; 'bleedctl status' tells which client sends how many"},
+       {"instruments_dropped", "instrument samples that were not used",
+        "stream each tool once, at no more than 1 kHz and with a rising seq, and end tools that rest; 'bleedctl status' tells "
+        "whose they are"}}};
   for (const auto& [name, value] : status.counters) {
     const auto loss = std::find_if(kLosses.begin(), kLosses.end(), [&name = name](const Loss& l) { return l.counter == name; });
-    if (value > 0 && loss != kLosses.end()) area.note(fmt::format("'{}': {} {} so far", status.name, value, loss->meaning));
+    if (value > 0 && loss != kLosses.end())
+      area.note(fmt::format("'{}': {} {} so far", status.name, value, loss->meaning), loss->remedy);
   }
 }
 
@@ -256,7 +272,8 @@ void findSession(const DoctorFacts& facts, const SessionFacts& session, Area& ar
     area.ok(fmt::format("{}; answers in {:.2f} ms", text, *session.round_trip_s * 1e3));
   }
   if (!status.text.empty() && status.state != client::SessionState::faulted)
-    area.note(fmt::format("'{}': {}", status.name, status.text));
+    area.note(fmt::format("'{}': {}", status.name, status.text),
+              "'bleedd --scene FILE --list-effects' explains it; change the scene where it is not what you want");
   findLosses(status, area);
 }
 

@@ -18,7 +18,7 @@ constexpr const char* kExportText =
     "  ply              a folder: a binary .ply for each frame, for Blender and Houdini\n"
     "  csv              one file: frame,epoch,time_s,id,x,y,z,... with a line for each particle of each frame\n"
     "  mcap-pointcloud  one MCAP file with foxglove.PointCloud, for Foxglove and Lichtblick; a layout for them is\n"
-    "                   config/recording/foxglove_layout.json\n"
+    "                   share/bleedsim/recording/foxglove_layout.json of an installation, config/recording of the sources\n"
     "Files of a folder carry the numbers of the recording's frames. Lengths are metres, speeds m/s.\n\n";
 
 struct ExportArguments : RecordingArguments {

@@ -8,6 +8,7 @@
 
 #include "clients/bleedctl/context.h"
 #include "clients/bleedctl/stop_signal.h"
+#include "service/status/number_text.h"
 #include "service/status/request_limits.h"
 
 namespace bleedsim::bleedctl {

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <fmt/core.h>
+#include <future>
 #include <map>
 #include <memory>
 #include <unistd.h>
@@ -10,11 +11,14 @@
 #include "clients/bleedctl/record_outcome.h"
 #include "clients/bleedctl/recording_commands.h"
 #include "clients/bleedctl/stop_signal.h"
+#include "service/status/number_text.h"
 
 namespace bleedsim::bleedctl {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
+// Closing waits up to a second for samples and then for the disk, which is done at once unless something is wrong with it.
+constexpr std::chrono::seconds kUsualClosing{4};
 
 constexpr const char* kRecordText =
     "Progress and news go to stderr: also that the session is paused, when nothing is recorded until it resumes. The\n"
@@ -25,7 +29,7 @@ constexpr const char* kRecordText =
     "case; --json tells 'complete' and 'ended_by' (limit, interrupt, session, file, middleware, error). At the end it waits\n"
     "up to a second for frames, statistics and inputs that are still being resent. What came reaches the file within a\n"
     "second: 'bleedctl recover' makes a complete file of one that was cut off by kill -9 or a full disk. A disk that is too\n"
-    "slow ends the recording, never the session.\n"
+    "slow ends the recording, never the session. While what is left waits for such a disk, Ctrl-C gives it up.\n"
     "--quantize 16 halves the file: each attribute of a frame is stored in 65536 steps over its own range, ids stay exact.\n"
     "'bleedctl info' states the largest error. --pointcloud is for Foxglove and Lichtblick; points are never quantised.\n\n";
 
@@ -78,19 +82,30 @@ void follow(client::Recorder& recorder, RecordNarrator& narrator, const client::
   }
 }
 
+/// Closes the recording. As long as a disk may hang there, a stop signal ends the program: what is in the file stays.
+Status close(client::Recorder& recorder, const RecordNarrator& narrator) {
+  std::future<Status> closed = std::async(std::launch::async, [&recorder] { return recorder.close(); });
+  const std::string failure = recorder.progress().failure;
+  if (!failure.empty() || closed.wait_for(kUsualClosing) != std::future_status::ready) {
+    endOnStopSignals();
+    print(narrator.closing(failure));
+  }
+  return closed.get();
+}
+
 int runRecord(const Context& context, const std::string& path, const client::RecordingLimits& limits,
               const client::RecordingFormat& format) {
   Result<client::Client> client = client::Client::create(context.connection);
   if (!client) return fail(client.status());
   const Result<client::SessionStatus> session = client->find(context.session, context.timeout());
   if (!session) return fail(session.status());
-  holdStopSignals();
   Result<client::Recorder> recorder = client::Recorder::start(*client, session->name, path, limits, format);
   if (!recorder) return fail(recordExitCode(recorder.status()), recorder.status().message());
+  holdStopSignals();  // not before: a disk may hang when the file is opened
   const bool terminal = isatty(STDERR_FILENO) == 1;
   RecordNarrator narrator{session->name, path, terminal};
   follow(*recorder, narrator, limits);
-  const Status closed = recorder->close();
+  const Status closed = close(*recorder, narrator);
   const client::RecordingProgress progress = recorder->progress();
   const RecordOutcome outcome = judgeRecording(session->name, progress, limits, closed);
   if (terminal) fmt::print(stderr, "\n");

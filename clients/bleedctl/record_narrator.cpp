@@ -51,6 +51,11 @@ std::string RecordNarrator::news(const client::RecordingProgress& progress) {
   return out;
 }
 
+std::string RecordNarrator::closing(const std::string& failure) const {
+  const std::string why = failure.empty() ? fmt::format("the disk takes its time for '{}'", path_) : failure;
+  return fmt::format("{}{}: writing what is left; Ctrl-C gives it up\n", terminal_ ? "\r\x1b[K" : "", why);
+}
+
 std::string RecordNarrator::bar(const client::RecordingProgress& progress, const client::RecordingLimits& limits) const {
   if (!terminal_) return {};
   constexpr std::size_t kWidth = 30;

@@ -18,6 +18,8 @@ class RecordNarrator {
   std::string news(const client::RecordingProgress& progress);
   /// The progress on one line, which replaces the line before; empty without a terminal.
   std::string bar(const client::RecordingProgress& progress, const client::RecordingLimits& limits) const;
+  /// The line for a file that takes its time to be closed; `failure`: why the recording ended, empty when the disk is only slow.
+  std::string closing(const std::string& failure) const;
 
  private:
   std::string session_;

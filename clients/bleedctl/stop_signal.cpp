@@ -28,6 +28,7 @@ void onStopSignal(int /*signal*/) {
 }  // namespace
 
 void endOnStopSignals() {
+  held = false;
   struct sigaction action {};
   action.sa_handler = onStopSignal;
   action.sa_flags = SA_RESTART;

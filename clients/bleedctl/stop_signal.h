@@ -5,7 +5,7 @@
 
 namespace bleedsim::bleedctl {
 
-/// From now on SIGINT and SIGTERM end the process at once with exit code kInterrupted.
+/// From now on SIGINT and SIGTERM end the process at once with exit code kInterrupted, also after holdStopSignals().
 void endOnStopSignals();
 
 /// From now on they are only noted: for a command that asks waitForStopSignal() all the time and then ends by itself.

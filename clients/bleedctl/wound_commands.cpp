@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "clients/bleedctl/context.h"
+#include "service/status/number_text.h"
 #include "service/status/quantity_limits.h"
 
 namespace bleedsim::bleedctl {
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
 
-CLI::Validator inRange(const Range& range, double unit = 1.0) { return finiteIn(range.lower / unit, range.upper / unit); }
+auto inRange(const Range& range, double unit = 1.0) { return finiteIn(range.lower / unit, range.upper / unit); }
 
 /// What the options of these commands hold, as they were written.
 struct Values {

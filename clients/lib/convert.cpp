@@ -1,6 +1,7 @@
 #include "clients/lib/convert.h"
 
 #include "clients/lib/wire_text.h"
+#include "service/status/session_state_name.h"
 #include "service/transport/uuid.h"
 
 namespace bleedsim::client {
@@ -17,23 +18,9 @@ std::vector<NamedCounter> counters(const Sequence& sequence) {
 
 }  // namespace
 
-const char* toString(SessionState state) {
-  switch (state) {
-    case SessionState::loading:
-      return "loading";
-    case SessionState::running:
-      return "running";
-    case SessionState::paused:
-      return "paused";
-    case SessionState::faulted:
-      return "faulted";
-    case SessionState::stopped:
-      return "stopped";
-    case SessionState::unknown:
-      break;
-  }
-  return "unknown";
-}
+static_assert(static_cast<std::uint32_t>(SessionState::loading) == bleed_v1_STATE_LOADING &&
+              static_cast<std::uint32_t>(SessionState::stopped) == bleed_v1_STATE_STOPPED);
+const char* toString(SessionState state) { return sessionStateName(static_cast<std::uint32_t>(state)); }
 
 std::string toString(const Uuid& uuid) { return transport::toString(uuid); }
 
@@ -114,9 +101,9 @@ SceneInfo fromWire(const bleed_v1_Scene& wire) {
   out.simd_target = textOf(wire.simd_target);
   out.precision = textOf(wire.precision);
   out.name = textOf(wire.scene_name);
-  out.text = textOf(wire.scene_text);
+  out.text = longTextOf(wire.scene_text);
   out.seed = wire.seed;
-  out.loaded_text = textOf(wire.loaded_text);
+  out.loaded_text = longTextOf(wire.loaded_text);
   for (const auto& effect : elements(wire.effects)) out.effects.push_back(textOf(effect));
   for (const auto& effect : elements(wire.known_effects)) out.known_effects.push_back(textOf(effect));
   out.frame_id = textOf(wire.frame_id);

@@ -200,6 +200,7 @@ void Recorder::Impl::publish(bool done) {
                  .replaced = daemon_.replaced(),
                  .state = state_,
                  .state_text = state_text_,
+                 .failure = failure_.message(),
                  .buffer_warning = buffer_warning_};
   }
   changed_.notify_all();

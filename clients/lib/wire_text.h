@@ -14,7 +14,8 @@ template <std::size_t N>
 std::string textOf(const char (&text)[N]) {
   return {text, strnlen(text, N)};
 }
-inline std::string textOf(const char* text) { return text == nullptr ? std::string{} : std::string{text}; }
+/// Of an unbounded string, which is always terminated. Not an overload: it would be chosen for arrays, too.
+inline std::string longTextOf(const char* text) { return text == nullptr ? std::string{} : std::string{text}; }
 
 /// Copies and terminates; false when the text is too long or holds a zero byte, `to` is then empty.
 template <std::size_t N>

@@ -1,11 +1,12 @@
 #include "service/daemon/log_file.h"
 
 #include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <string_view>
 #include <unistd.h>
+
+#include "service/status/file_error.h"
 
 namespace bleedsim::daemon {
 namespace {
@@ -15,7 +16,7 @@ constexpr mode_t kMode = 0640;
 Result<int> openForAppending(const std::string& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, kMode);
   if (file >= 0) return file;
-  return Status{StatusCode::io, fmt::format("log file '{}' cannot be opened: {}", path, std::strerror(errno))};
+  return Status{StatusCode::io, fmt::format("log file '{}' cannot be opened: {}", path, fileErrorText(errno))};
 }
 
 /// What is left when the system takes no more.

@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fmt/core.h>
 #include <iostream>
 #include <thread>
 
 #include "service/daemon/build_info.h"
 #include "service/dds/command_limits.h"
 #include "service/status/number_text.h"
+#include "service/status/pace_text.h"
 #include "service/transport/domain.h"
 #include "service/transport/names.h"
 
@@ -35,21 +35,7 @@ int defaultThreads() { return std::clamp(static_cast<int>(std::thread::hardware_
 /// What CLI11 expects of a validator: the empty text, or what is wrong.
 std::string textOf(const Status& status) { return status.message(); }
 
-CLI::Validator finiteIn(double lower, double upper) {
-  return {[lower, upper](std::string& text) { return textOf(checkNumberText(text, lower, upper)); }, {}};
-}
-
 }  // namespace
-
-Result<dds::Pace> parsePace(const std::string& text) {
-  if (text == "realtime") return dds::Pace{dds::PaceMode::real_time, 1.0};
-  if (text == "max") return dds::Pace{dds::PaceMode::maximum, 1.0};
-  if (checkNumberText(text, dds::kPaceRange.lower, dds::kPaceRange.upper)) {
-    return dds::Pace{dds::PaceMode::factor, *parseNumber(text)};
-  }
-  return Status{StatusCode::invalid_argument, fmt::format("pace '{}': use realtime, max or a factor from {:g} to {:g}", text,
-                                                          dds::kPaceRange.lower, dds::kPaceRange.upper)};
-}
 
 std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) {
   Options options;
@@ -76,7 +62,7 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   app.add_option("--interface", options.interface, "Network interface to publish on; without it, loopback only")
       ->type_name("NAME");
   app.add_option("--pace", pace, "realtime, max, or simulated seconds per second")
-      ->check([](const std::string& text) { return textOf(parsePace(text).status()); })
+      ->check([](const std::string& text) { return textOf(parsePace<dds::Pace>(text).status()); })
       ->type_name("PACE")
       ->capture_default_str();
   auto* rate_option = app.add_option("--frame-rate", frame_rate, "Frames per simulated second; without it, the scene's")
@@ -117,7 +103,7 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   if (rate_option->count() > 0) options.frame_rate = frame_rate;
   if (duration_option->count() > 0) options.duration = duration;
   if (log_file->count() > 0) options.log.file = log_file_path;
-  options.pace = *parsePace(pace);
+  options.pace = *parsePace<dds::Pace>(pace);
   options.world.simd = *sph::parseSimdTarget(simd);
   return options;
 }

@@ -31,7 +31,4 @@ struct Options {
 /// The options, or the code to exit with once help, version or a usage error was printed.
 std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv);
 
-/// "realtime", "max" or a factor.
-Result<dds::Pace> parsePace(const std::string& text);
-
 }  // namespace bleedsim::daemon

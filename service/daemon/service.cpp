@@ -1,12 +1,12 @@
 #include "service/daemon/service.h"
 
-#include <array>
 #include <thread>
 #include <unistd.h>
 #include <utility>
 
 #include "service/daemon/build_info.h"
 #include "service/transport/clock.h"
+#include "service/transport/host_name.h"
 
 namespace bleedsim::daemon {
 namespace {
@@ -14,15 +14,10 @@ namespace {
 // Discovery takes milliseconds on a healthy network; two daemons that start within the window settle it by their status.
 constexpr std::chrono::milliseconds kListenWindow{400};
 
-std::string hostName() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? std::string{name.data()} : std::string{"unknown"};
-}
-
 }  // namespace
 
 dds::SessionIdentity makeIdentity(const std::string& session) {
-  return {transport::drawUuid(), session, buildVersion(), buildId(), hostName(), getpid(), transport::realtimeNow()};
+  return {transport::drawUuid(), session, buildVersion(), buildId(), transport::hostName(), getpid(), transport::realtimeNow()};
 }
 
 Result<std::unique_ptr<Service>> Service::create(const ServiceOptions& options, LoadedScene first, SceneFactory factory) {

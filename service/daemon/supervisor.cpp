@@ -5,6 +5,8 @@
 #include <spdlog/spdlog.h>
 #include <utility>
 
+#include "service/status/session_state_name.h"
+
 namespace bleedsim::daemon {
 namespace {
 
@@ -19,26 +21,11 @@ Clock::duration periodFor(const std::optional<Clock::duration>& watchdog) {
   return std::clamp<Clock::duration>(*watchdog / kLooksPerWatchdog, kShortestPeriod, kLookPeriod);
 }
 
-const char* nameOf(dds::SessionState state) {
-  switch (state) {
-    case dds::SessionState::loading:
-      return "loading";
-    case dds::SessionState::running:
-      return "running";
-    case dds::SessionState::paused:
-      return "paused";
-    case dds::SessionState::faulted:
-      return "faulted";
-    case dds::SessionState::stopped:
-      break;
-  }
-  return "stopped";
-}
-
 /// One line, whatever the text holds.
 std::string stateText(const dds::StatusReport& report) {
   std::string text = fmt::format("{}: real-time factor {:.2f}, {:.3f} s behind, {:.1f} s simulated, {} particles",
-                                 nameOf(report.state), report.real_time_factor, report.behind, report.sim_time, report.particles);
+                                 sessionStateName(static_cast<std::uint32_t>(report.state)), report.real_time_factor,
+                                 report.behind, report.sim_time, report.particles);
   if (!report.text.empty()) text += "; " + report.text;
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;

@@ -6,6 +6,7 @@
 #include "service/dds/frame_blocks.h"
 #include "service/dds/value_check.h"
 #include "service/sph/world.h"
+#include "service/status/wire_bool.h"
 
 namespace bleedsim::dds {
 namespace {
@@ -45,13 +46,6 @@ Result<SetPace> decodePace(const bleed_v1_Pace& sample) {
       return Status{StatusCode::invalid_argument,
                     fmt::format("pace.mode is {}: use 0 (real time), 1 (factor) or 2 (maximum)", sample.mode)};
   }
-}
-
-/// A boolean from the wire may hold any byte; reading it as bool would be undefined, so its storage is looked at.
-bool isSet(const bool& flag) {
-  std::uint8_t storage = 0;
-  std::memcpy(&storage, &flag, sizeof storage);
-  return storage != 0;
 }
 
 Result<SetOutput> decodeOutput(const bleed_v1_Output& sample) {

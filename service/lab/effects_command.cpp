@@ -9,10 +9,10 @@
 
 #include "service/lab/app.h"
 #include "service/lab/effect_costs.h"
-#include "service/lab/finite_in.h"
 #include "service/lab/progress.h"
 #include "service/picture/plot.h"
 #include "service/scene/scene.h"
+#include "service/status/number_text.h"
 
 namespace bleedsim::lab {
 namespace {

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "service/lab/app.h"
-#include "service/lab/finite_in.h"
 #include "service/lab/paper/claims.h"
 #include "service/lab/paper/fig5.h"
 #include "service/lab/paper/growth.h"
@@ -18,6 +17,7 @@
 #include "service/lab/paper/paper_scene.h"
 #include "service/lab/paper/table2.h"
 #include "service/lab/progress.h"
+#include "service/status/number_text.h"
 
 namespace bleedsim::lab {
 namespace {

@@ -6,9 +6,10 @@
 #include <fcntl.h>
 #include <memory>
 #include <png.h>
-#include <system_error>
 #include <unistd.h>
 #include <vector>
+
+#include "service/status/file_error.h"
 
 namespace bleedsim::picture {
 namespace {
@@ -98,28 +99,8 @@ std::vector<png_bytep> rowsOf(Image& image) {
   return rows;
 }
 
-std::string adviceFor(int error) {
-  switch (error) {
-    case ENOENT:
-    case ENOTDIR:
-      return "; create its folder first";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return "; choose a folder that you may write to";
-    case ENOSPC:
-    case EDQUOT:
-      return "; free space or choose another disk";
-    case EISDIR:
-      return "; it is a folder: give the name of a file";
-    default:
-      return "";
-  }
-}
-
 Status ioError(const char* action, const std::filesystem::path& path, int error) {
-  return {StatusCode::io, std::string{"cannot "} + action + " '" + path.string() +
-                              "': " + std::generic_category().message(error) + adviceFor(error)};
+  return {StatusCode::io, std::string{"cannot "} + action + " '" + path.string() + "': " + fileErrorText(error)};
 }
 
 Status outOfMemory(const std::filesystem::path& path) {

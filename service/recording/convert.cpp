@@ -157,7 +157,7 @@ void counters(ToMessage& to, const char* name, const Sequence& in, Repeated& out
   to.text("scene.simd_target", sample.simd_target, out.mutable_simd_target());
   to.text("scene.precision", sample.precision, out.mutable_precision());
   to.text("scene.scene_name", sample.scene_name, out.mutable_scene_name());
-  to.text("scene.scene_text", sample.scene_text, out.mutable_scene_text());
+  to.longText("scene.scene_text", sample.scene_text, out.mutable_scene_text());
   out.set_seed(sample.seed);
   if (to.has("scene.effects", sample.effects)) {
     for (std::uint32_t i = 0; i < sample.effects._length; ++i) {
@@ -181,7 +181,7 @@ void counters(ToMessage& to, const char* name, const Sequence& in, Repeated& out
       to.text("scene.known_effects", sample.known_effects._buffer[i], out.add_known_effects());
     }
   }
-  to.text("scene.loaded_text", sample.loaded_text, out.mutable_loaded_text());
+  to.longText("scene.loaded_text", sample.loaded_text, out.mutable_loaded_text());
   return to.status();
 }
 

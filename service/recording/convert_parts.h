@@ -31,9 +31,12 @@ class ToMessage {
   }
   template <std::size_t N>
   void text(const char* name, const char (&in)[N], std::string* out) {
-    view(name, std::string_view{in, strnlen(in, N)}, out);
+    const std::size_t length = strnlen(in, N);
+    if (length == N) return fail(StatusCode::invalid_argument, fmt::format("{} has no end; the sample is malformed", name));
+    view(name, std::string_view{in, length}, out);
   }
-  void text(const char* name, const char* in, std::string* out) { view(name, in == nullptr ? std::string_view{} : in, out); }
+  /// An unbounded string. Not an overload: it would be chosen for arrays, too.
+  void longText(const char* name, const char* in, std::string* out) { view(name, in == nullptr ? std::string_view{} : in, out); }
 
   /// False: the sequence has a length but no data.
   template <class Sequence>

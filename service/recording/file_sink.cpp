@@ -3,40 +3,18 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <system_error>
 #include <unistd.h>
 #include <utility>
 
+#include "service/status/file_error.h"
+
 namespace bleedsim::recording {
-namespace {
-
-std::string reasonOf(int error) { return std::generic_category().message(error); }
-
-const char* adviceFor(int error) {
-  switch (error) {
-    case ENOSPC:
-    case EDQUOT:
-    case EFBIG:
-      return "; free space or record to another disk";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return "; choose a file that you may write";
-    case ENOENT:
-      return "; create its directory first";
-    default:
-      return "";
-  }
-}
-
-}  // namespace
 
 Result<FileSink> FileSink::open(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (descriptor < 0) {
     const int error = errno;
-    return ::bleedsim::Status{StatusCode::io,
-                              fmt::format("cannot create '{}': {}{}", path.string(), reasonOf(error), adviceFor(error))};
+    return ::bleedsim::Status{StatusCode::io, fmt::format("cannot create '{}': {}", path.string(), fileErrorText(error))};
   }
   return FileSink{path, descriptor};
 }
@@ -63,7 +41,7 @@ FileSink::~FileSink() {
 }
 
 ::bleedsim::Status FileSink::fail(int error, const char* action) {
-  status_ = {StatusCode::io, fmt::format("cannot {} '{}': {}{}", action, path_.string(), reasonOf(error), adviceFor(error))};
+  status_ = {StatusCode::io, fmt::format("cannot {} '{}': {}", action, path_.string(), fileErrorText(error))};
   return status_;
 }
 

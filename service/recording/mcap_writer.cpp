@@ -52,7 +52,7 @@ McapWriter::McapWriter(WriteQueue sink, const ChunkOptions& options, Compressor 
                         data.size(), kMaxMessageBytes)};
   }
   if (!chunk_.empty() && chunk_.size() + data.size() > options_.bytes) {
-    if (::bleedsim::Status status = endChunk(); !status) return status;
+    if (::bleedsim::Status status = endChunk(Chunk::next); !status) return status;
   }
   if (chunk_.empty()) {
     chunk_first_ns_ = log_time_ns;
@@ -69,19 +69,22 @@ McapWriter::McapWriter(WriteQueue sink, const ChunkOptions& options, Compressor 
   ++statistics_.messages;
   ++statistics_.channel_messages[channel_id];
   // The message is in: that the disk is too slow is said to the next one.
-  return chunk_.size() >= options_.bytes || chunkIsOld(std::chrono::steady_clock::now()) ? endChunk() : ::bleedsim::Status{};
+  return chunk_.size() >= options_.bytes || chunkIsOld(std::chrono::steady_clock::now()) ? endChunk(Chunk::next)
+                                                                                         : ::bleedsim::Status{};
 }
 
 ::bleedsim::Status McapWriter::endOldChunk(std::chrono::steady_clock::time_point now) {
   if (chunkIsOld(now)) {
-    if (::bleedsim::Status status = endChunk(); !status) return status;
+    if (::bleedsim::Status status = endChunk(Chunk::next); !status) return status;
   }
   return sink_.status();
 }
 
-::bleedsim::Status McapWriter::endChunk() {
+::bleedsim::Status McapWriter::endChunk(Chunk which) {
   // Viewers take the start time 0 of an empty chunk for 1970.
   if (chunk_.empty()) return {};
+  // Its messages are counted: beyond the queue's limit they wait for the end.
+  if (which == Chunk::next && !sink_.status()) return {};
   const Result<std::string_view> compressed = compressor_.compress(chunk_);
   if (!compressed) return compressed.status();
 
@@ -105,19 +108,19 @@ McapWriter::McapWriter(WriteQueue sink, const ChunkOptions& options, Compressor 
   index.message_index_bytes = buffer_.size() - index.length;
   chunk_.clear();
   indexes_.clear();
-  if (::bleedsim::Status status = sink_.write(buffer_); !status) return status;
-  chunk_indexes_.push_back(std::move(index));
+  if (::bleedsim::Status status = which == Chunk::last ? sink_.writeEnd(buffer_) : sink_.write(buffer_); !status) return status;
+  appendRecord(chunk_indexes_, index);
   ++statistics_.chunks;
   return {};
 }
 
 ::bleedsim::Status McapWriter::write(const Metadata& metadata) {
-  if (::bleedsim::Status status = endChunk(); !status) return status;
+  if (::bleedsim::Status status = endChunk(Chunk::last); !status) return status;
   buffer_.clear();
   appendRecord(buffer_, metadata);
   metadata_indexes_.push_back({sink_.bytes(), buffer_.size(), metadata.name});
   ++statistics_.metadata;
-  return sink_.write(buffer_);
+  return sink_.writeEnd(buffer_);
 }
 
 std::string McapWriter::summary(std::uint64_t start) const {
@@ -135,7 +138,7 @@ std::string McapWriter::summary(std::uint64_t start) const {
   end_group(Opcode::channel);
   appendRecord(out, statistics_);
   end_group(Opcode::statistics);
-  for (const ChunkIndex& index : chunk_indexes_) appendRecord(out, index);
+  out += chunk_indexes_;
   end_group(Opcode::chunk_index);
   for (const MetadataIndex& index : metadata_indexes_) appendRecord(out, index);
   end_group(Opcode::metadata_index);
@@ -149,13 +152,13 @@ std::string McapWriter::summary(std::uint64_t start) const {
 }
 
 ::bleedsim::Status McapWriter::close() {
-  ::bleedsim::Status status = endChunk();
+  ::bleedsim::Status status = endChunk(Chunk::last);
   if (status) {
     buffer_.clear();
     appendDataEnd(buffer_, sink_.crc());
-    status = sink_.write(buffer_);
+    status = sink_.writeEnd(buffer_);
   }
-  if (status) status = sink_.write(summary(sink_.bytes()));
+  if (status) status = sink_.writeEnd(summary(sink_.bytes()));
   ::bleedsim::Status closed = sink_.close();
   return status ? closed : status;
 }

@@ -44,7 +44,8 @@ class McapWriter {
   /// Hands the open chunk to the disk when it is as old as `age` at `now`: to be called from time to time, since a chunk
   /// otherwise waits for the next message. io: as WriteQueue::status().
   ::bleedsim::Status endOldChunk(std::chrono::steady_clock::time_point now);
-  /// Ends the chunk first, so that the record stands after the messages that it is about.
+  /// Ends the chunk first, so that the record stands after the messages that it is about. Taken though the disk is too slow: what
+  /// a recording tells of itself belongs to its end. io: the disk failed.
   ::bleedsim::Status write(const Metadata& metadata);
   /// Waits until what was written is in the file, the open chunk excepted.
   ::bleedsim::Status flush() { return sink_.flush(); }
@@ -59,7 +60,9 @@ class McapWriter {
   bool chunkIsOld(std::chrono::steady_clock::time_point now) const {
     return !chunk_.empty() && now - chunk_since_ >= options_.age;
   }
-  ::bleedsim::Status endChunk();
+  /// Hands the open chunk to the queue: as one of many, or as part of the file's end.
+  enum class Chunk { next, last };
+  ::bleedsim::Status endChunk(Chunk which);
   std::string summary(std::uint64_t start) const;
 
   WriteQueue sink_;
@@ -76,7 +79,7 @@ class McapWriter {
   std::map<std::uint16_t, MessageIndex> indexes_;  ///< of the open chunk
 
   std::map<std::uint16_t, std::uint32_t> sequences_;
-  std::vector<ChunkIndex> chunk_indexes_;
+  std::string chunk_indexes_;  ///< records: all that grows with the file
   std::vector<MetadataIndex> metadata_indexes_;
   Statistics statistics_;
 };

@@ -4,6 +4,8 @@
 #include <system_error>
 #include <unistd.h>
 
+#include "service/status/file_error.h"
+
 namespace bleedsim::recording {
 
 namespace fs = std::filesystem;
@@ -18,7 +20,7 @@ PartFile::~PartFile() {
 ::bleedsim::Status PartFile::keep() {
   std::error_code error;
   fs::rename(part_, target_, error);
-  if (error) return {StatusCode::io, fmt::format("cannot create '{}': {}", target_.string(), error.message())};
+  if (error) return {StatusCode::io, fmt::format("cannot create '{}': {}", target_.string(), fileErrorText(error.value()))};
   done_ = true;
   return {};
 }

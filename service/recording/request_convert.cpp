@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "service/recording/convert_parts.h"
+#include "service/status/wire_bool.h"
 
 namespace bleedsim::recording {
 namespace {
@@ -91,18 +92,18 @@ void requestToMessage(ToMessage& to, const bleed_v1_Request& in, Request& out) {
       break;
     case bleed_v1_REQUEST_OUTPUT:
       out.mutable_output()->set_rate_hz(body.output.rate_hz);
-      out.mutable_output()->set_set_attributes(body.output.set_attributes);
+      out.mutable_output()->set_set_attributes(isSet(body.output.set_attributes));
       out.mutable_output()->set_attributes(body.output.attributes);
       break;
     case bleed_v1_REQUEST_LOAD_SCENE:
-      to.text("load_scene.text", body.load_scene.text, out.mutable_load_scene()->mutable_text());
+      to.longText("load_scene.text", body.load_scene.text, out.mutable_load_scene()->mutable_text());
       break;
     case bleed_v1_REQUEST_SHUTDOWN:
       out.mutable_shutdown_session();
       break;
     case bleed_v1_REQUEST_EFFECT:
       to.text("effect.name", body.effect.name, out.mutable_effect()->mutable_name());
-      out.mutable_effect()->set_enabled(body.effect.enabled);
+      out.mutable_effect()->set_enabled(isSet(body.effect.enabled));
       to.text("effect.settings", body.effect.settings, out.mutable_effect()->mutable_settings());
       break;
     case bleed_v1_REQUEST_ACQUIRE:

@@ -89,7 +89,10 @@ WriteQueue::~WriteQueue() {
   if (impl_) static_cast<void>(close());
 }
 
-::bleedsim::Status WriteQueue::write(std::string block) {
+::bleedsim::Status WriteQueue::write(std::string block) { return take(std::move(block), false); }
+::bleedsim::Status WriteQueue::writeEnd(std::string block) { return take(std::move(block), true); }
+
+::bleedsim::Status WriteQueue::take(std::string block, bool end) {
   if (impl_->closed) return {StatusCode::wrong_state, fmt::format("'{}' is closed", impl_->name)};
   if (block.empty()) return status();
   const std::size_t size = block.size();
@@ -97,7 +100,8 @@ WriteQueue::~WriteQueue() {
   {
     const std::lock_guard lock{impl_->mutex};
     if (!impl_->failure.ok()) return impl_->failure;
-    if (impl_->waiting > 0 && impl_->waiting + size > impl_->limit && impl_->overflow.ok()) {
+    if (!end && !impl_->overflow.ok()) return impl_->overflow;
+    if (!end && impl_->waiting > 0 && impl_->waiting + size > impl_->limit) {
       impl_->overflow = {StatusCode::io,
                          fmt::format("the disk is too slow for '{}': {} kB wait to be written; record to a faster disk, or fewer "
                                      "frames a second. The file is complete up to there",

@@ -11,7 +11,7 @@
 
 namespace bleedsim::recording {
 
-/// One thread writes and closes. Holds at most the limit and one block in memory.
+/// One thread writes and closes. Holds at most the limit, one block and what writeEnd() is given in memory.
 class WriteQueue {
  public:
   /// Creates or replaces the file. io: says why not.
@@ -22,15 +22,18 @@ class WriteQueue {
   /// Closes the file; call close() to learn whether that worked.
   ~WriteQueue();
 
-  /// Takes a block; never waits. io: the disk failed, the block is dropped.
+  /// Takes a block; never waits. Of blocks that do not fit the limit the first one is still taken, so that whoever counts what it
+  /// handed over is right. io: as status(), the block is not taken.
   ::bleedsim::Status write(std::string block);
+  /// Takes a block though too much waits already: for the little that makes the file complete. io: the disk failed.
+  ::bleedsim::Status writeEnd(std::string block);
   /// Waits until all blocks are in the file. io: as write().
   ::bleedsim::Status flush();
   /// Waits as flush(), brings the bytes to the disk and closes the file. Further calls give the first answer. io: as status().
   ::bleedsim::Status close();
 
-  /// io: the disk failed, or it was once so slow that more than the limit waited. Blocks are still taken after the latter: what
-  /// was taken is written, and the file can be ended properly.
+  /// io: the disk failed, or it was once so slow that more than the limit waited. After the latter what was taken is still
+  /// written, and writeEnd() ends the file properly.
   ::bleedsim::Status status() const;
 
   std::uint64_t bytes() const { return bytes_; }  ///< taken
@@ -39,6 +42,7 @@ class WriteQueue {
  private:
   struct Impl;
   explicit WriteQueue(std::unique_ptr<Impl> impl);
+  ::bleedsim::Status take(std::string block, bool end);
 
   std::unique_ptr<Impl> impl_;
   std::uint64_t bytes_ = 0;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,11 @@ inline Status checkNumberText(std::string_view text, double lower, double upper)
   char range[64];
   std::snprintf(range, sizeof range, "%g to %g", lower, upper);
   return {StatusCode::invalid_argument, "'" + std::string{text} + "' is not a number from " + range};
+}
+
+/// The same as the check of a command-line option: the empty text, or what is wrong.
+inline std::function<std::string(const std::string&)> finiteIn(double lower, double upper) {
+  return [lower, upper](const std::string& text) { return checkNumberText(text, lower, upper).message(); };
 }
 
 }  // namespace bleedsim

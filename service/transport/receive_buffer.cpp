@@ -18,9 +18,10 @@ std::optional<BufferShortage> findShortage(std::size_t limit, std::size_t frame_
   if (limit == 0 || granted >= needed) return {};
   std::string remedy;
   if (granted < kReceiveBufferBytes) {
-    remedy =
-        fmt::format("sysctl -w net.core.rmem_max={} on the hosts that receive frames (config/systemd/60-bleedsim.conf keeps it)",
-                    kReceiveBufferBytes);
+    remedy = fmt::format(
+        "sysctl -w net.core.rmem_max={0} on the hosts that receive frames; the line net.core.rmem_max={0} in a .conf "
+        "file in /etc/sysctl.d keeps it",
+        kReceiveBufferBytes);
   }
   if (needed > kReceiveBufferBytes) {
     remedy += fmt::format("{}a smaller capacity or fewer attributes: no more than {} kB are asked for",

@@ -4,18 +4,16 @@
 
 #include "service/scene/change_effect.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/support/flat_scene.h"
 
 namespace {
 
 using namespace bleedsim;
 
-constexpr const char* kScene =
-    "domain { lower_m { x: -0.03 y: -0.03 z: -0.012 } upper_m { x: 0.03 y: 0.03 z: 0.03 } capacity: 2000 }\n"
-    "resolution { spacing_m: 0.003 }\n"
-    "compressibility { design_speed_m_per_s: 0.3 max_fall_or_depth_m: 0.004 }\n"
-    "effects { gravity {} pressure {} viscosity {} platelets {} applied_force {} }\n"
-    "tissue { plane { normal { z: 1.0 } } }\n"
-    "wounds { name: 'cut' disc { radius_m: 0.003 } flow_ml_per_s: 1.5 }\n";
+std::string sceneText() {
+  return test::FlatScene{.effects = "gravity {} pressure {} viscosity {} platelets {} applied_force {}", .more = test::kCut}
+      .text();
+}
 
 }  // namespace
 
@@ -23,7 +21,7 @@ constexpr const char* kScene =
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr const char* kNames[] = {"gravity",     "pressure",  "viscosity", "surface_tension", "wetting",       "platelets",
                                     "core_radius", "repulsion", "adhesion",  "applied_force",   "no_such_effect"};
-  static const Result<scene::SceneDescription> running = scene::parseScene(kScene);
+  static const Result<scene::SceneDescription> running = scene::parseScene(sceneText());
   fuzz::require(running.ok(), "the scene of this target is valid");
   fuzz::FuzzInput input{data, size};
   const auto choice = input.take<std::uint8_t>();

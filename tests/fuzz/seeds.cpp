@@ -1,5 +1,6 @@
 // Writes the seeds of the fuzz targets: good inputs of each kind, in the form that the target reads.
 //   fuzz_seeds FOLDER
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "tests/unit/dds/samples.h"
@@ -18,8 +20,9 @@ using namespace bleedsim;
 
 class Bytes {
  public:
+  /// The value's memory; never that of a std::string, which holds a pointer.
   template <class T>
-  Bytes& add(const T& value) {
+  requires std::is_trivially_copyable_v<T> Bytes& add(const T& value) {
     text_.append(reinterpret_cast<const char*>(&value), sizeof value);
     return *this;
   }
@@ -127,6 +130,57 @@ void writeRecordings(const Folder& folder) {
   folder.write("message", "status", Bytes{}.add(std::uint8_t{2}).add(status.SerializeAsString()).text());
 }
 
+/// A list as the target reads it: how many, then each.
+template <class Element>
+Bytes& addList(Bytes& bytes, const std::vector<Element>& list) {
+  bytes.add(static_cast<std::uint16_t>(list.size()));
+  for (const Element& element : list) bytes.add(element);
+  return bytes;
+}
+Bytes& addText(Bytes& bytes, std::string_view text) { return bytes.add(static_cast<std::uint16_t>(text.size())).add(text); }
+
+void writeSamples(const Folder& folder) {
+  const auto write = [&](const std::string& name, std::uint8_t kind, const Bytes& sample) {
+    folder.write("sample", name, Bytes{}.add(kind).add(sample.text()).text());
+  };
+  using Name = std::array<char, 65>;
+  bleed_v1_Counter counter{"requests", 3};
+  Bytes frame;
+  addList<bleed_v1_Attribute>(frame.add(bleed_v1_Frame{}),
+                              {{bleed_v1_SEMANTIC_POSITION, bleed_v1_SCALAR_FLOAT32, 3, 1.0F, 0.0F}});
+  write("frame", 0, addList<std::uint8_t>(frame, std::vector<std::uint8_t>(12)));
+  Bytes stats;
+  addList<bleed_v1_StageCost>(stats.add(bleed_v1_FrameStats{}), {{"force", 120.0}});
+  addList<bleed_v1_WoundLedger>(stats, {{1, 0.5, 1.5}});
+  addList<bleed_v1_Counter>(stats, {counter});
+  write("stats", 1, addList<bleed_v1_InstrumentApplied>(stats, {{{}, 7, 1000, 20}}));
+  bleed_v1_Status running{};
+  running.state = bleed_v1_STATE_RUNNING;
+  dds::copyText("theatre", running.session_name);
+  Bytes status;
+  addList<bleed_v1_Counter>(status.add(running), {counter});
+  write("status", 2, addList<bleed_v1_ClientActivity>(status, {{{}, 9, 1, 0, 0, 100, 0, 0.1}}));
+  Bytes scene;
+  addList<Name>(scene.add(bleed_v1_Scene{}), {Name{"gravity"}});
+  addList<Name>(scene, {Name{"gravity"}, Name{"wetting"}});
+  write("scene", 3, addText(addText(scene, "name: 'a'"), "name: 'b'"));
+  write("reply", 4, Bytes{}.add(bleed_v1_Reply{}));
+  const auto journal = [&](const std::string& name, std::uint8_t kind, const Bytes& body) {
+    const Bytes head =
+        Bytes{}.add(std::string(16, 'u')).add(std::uint32_t{1}).add(std::uint64_t{1}).add(std::uint64_t{0}).add(0.0);
+    write("journal_" + name, 5, Bytes{}.add(head.text()).add(kind).add(body.text()));
+  };
+  const std::string request(4 + 16 + 8 + 8, '\1');  // object_id, client, run, seq
+  journal("wound", bleed_v1_JOURNAL_REQUEST,
+          Bytes{}.add(request).add(std::uint8_t{bleed_v1_REQUEST_WOUND_ADD}).add(wound(bleed_v1_SHAPE_DISC, {}).text()));
+  bleed_v1_Effect effect{};
+  dds::copyText("viscosity", effect.name);
+  effect.enabled = true;
+  journal("effect", bleed_v1_JOURNAL_REQUEST, Bytes{}.add(request).add(std::uint8_t{bleed_v1_REQUEST_EFFECT}).add(effect));
+  journal("instrument", bleed_v1_JOURNAL_INSTRUMENT, Bytes{}.add(dds::instrumentSample()));
+  journal("decision", bleed_v1_JOURNAL_DECISION, Bytes{}.add(std::string_view{"wetting: off"}));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -138,6 +192,7 @@ int main(int argc, char** argv) {
   writeRequests(folder);
   writeFrames(folder);
   writeRecordings(folder);
+  writeSamples(folder);
   folder.write("instrument", "good", Bytes{}.add(dds::instrumentSample()).text());
   folder.write("effect", "viscosity",
                Bytes{}.add(std::uint8_t{2}).add(std::string_view{"viscosity_pa_s: 0.01 solve: EXPLICIT"}).text());

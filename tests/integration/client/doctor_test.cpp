@@ -11,6 +11,7 @@
 #include "service/transport/writer.h"
 #include "tests/integration/client/json_value.h"
 #include "tests/integration/client/running_daemon.h"
+#include "tests/support/flat_scene.h"
 
 namespace bleedsim::client_test {
 namespace {
@@ -21,22 +22,12 @@ using testing::Not;
 
 constexpr std::uint32_t kDomain = 69;
 
-// Two full frames are 112 kB: they fit the receive buffer of a plain kernel.
-constexpr const char* kSmallScene =
-    "name: 'small'\n"
-    "domain { lower_m { x: -0.03 y: -0.03 z: -0.012 } upper_m { x: 0.03 y: 0.03 z: 0.03 } capacity: 2000 }\n"
-    "resolution { spacing_m: 0.003 }\n"
-    "compressibility { design_speed_m_per_s: 0.3 max_fall_or_depth_m: 0.004 }\n"
-    "effects { gravity { acceleration_m_per_s2 { z: -9.81 } } pressure {} viscosity {} }\n"
-    "tissue { plane { normal { z: 1.0 } } }\n"
-    "wounds { name: 'cut' disc { radius_m: 0.003 } flow_ml_per_s: 1.5 }\n";
-
 class DoctorTest : public testing::Test {
  protected:
   void SetUp() override {
     isolate();
     scene_ = fmt::format("{}/bleedsim_doctor_{}.textproto", testing::TempDir(), getpid());
-    std::ofstream{scene_} << kSmallScene;
+    std::ofstream{scene_} << "name: 'small'\n" << test::FlatScene{.more = test::kCut}.text();
   }
   void TearDown() override { std::filesystem::remove(scene_); }
 

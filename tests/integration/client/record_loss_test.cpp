@@ -1,7 +1,9 @@
 // What is left of a recording whose process was killed or whose disk was full, and how `bleedctl recover` makes it whole.
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "tests/integration/client/bleedctl_fixture.h"
 #include "tests/integration/client/json_value.h"
@@ -92,6 +94,53 @@ TEST_F(RecordLossTest, AFullDiskEndsTheRecordingWithItsReasonAndIsRecovered) {
               AllOf(HasSubstr("cannot write to '" + path("a.mcap") + "'"), HasSubstr("free space"),
                     HasSubstr(R"("ended_by": "file")"), HasSubstr("'bleedctl info " + path("a.mcap") + "' says what it holds")));
   checkRecovery();
+}
+
+/// A file that takes 64 KiB and then hangs for ever, as a network disk may.
+class HangingFile {
+ public:
+  explicit HangingFile(const std::string& path) {
+    EXPECT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    EXPECT_GE(descriptor_, 0);
+  }
+  HangingFile(const HangingFile&) = delete;
+  HangingFile& operator=(const HangingFile&) = delete;
+  ~HangingFile() { ::close(descriptor_); }
+
+ private:
+  int descriptor_ = -1;
+};
+
+TEST_F(RecordLossTest, WhoInterruptsOnAHangingDiskCanGiveItUp) {
+  const auto service = serve("one");
+  const HangingFile hanging{path("a.mcap")};
+  test::ChildProcess recording{command({"record", "-o", path("a.mcap"), "--compress", "none"}), true};
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  for (std::uint64_t seq = 1; seq <= 4; ++seq) ASSERT_TRUE(service->publishFrame(seq, 5000).ok());
+  ASSERT_TRUE(recording.waitForOutput("recording session 'one'"));
+  recording.signal(SIGINT);
+  ASSERT_TRUE(recording.waitForOutput("the disk takes its time for '" + path("a.mcap") +
+                                      "': writing what is left; Ctrl-C gives it up\n"));
+  recording.signal(SIGINT);
+  EXPECT_EQ(recording.wait(), 130) << recording.output();
+}
+
+TEST_F(RecordLossTest, ADiskThatHangsEndsTheRecordingWhichSaysSoAndCanBeGivenUp) {
+  const auto service = serve("one");
+  const HangingFile hanging{path("a.mcap")};
+  test::ChildProcess recording{command({"record", "-o", path("a.mcap"), "--compress", "none"}), true};
+  ASSERT_TRUE(service->waitFrameReaders(1));
+  const auto said = [&](const char* text) { return recording.output().find(text) != std::string::npos; };
+  for (std::uint64_t seq = 1; !said("gives it up"); ++seq) {
+    ASSERT_LT(seq, 100'000U) << "the recording does not end";
+    ASSERT_TRUE(service->publishFrame(seq, 20'000).ok());
+    ASSERT_FALSE(recording.wait(std::chrono::milliseconds{1}).has_value()) << recording.output();
+  }
+  EXPECT_THAT(recording.output(),
+              AllOf(HasSubstr("the disk is too slow for '" + path("a.mcap") + "'"), HasSubstr(": writing what is left;")));
+  recording.signal(SIGINT);
+  EXPECT_EQ(recording.wait(), 130) << recording.output();
 }
 
 TEST_F(RecordLossTest, WhatCannotBeRecoveredIsNamed) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <set>
 
 #include "idl/bleed.h"
 #include "service/transport/receive_buffer.h"
@@ -121,7 +122,8 @@ TEST_F(DoctorTest, SaysThatLoopbackSeesThisHostOnly) {
 TEST_F(DoctorTest, FindsAReceiveBufferThatTwoFullFramesDoNotFit) {
   facts_.sessions[0].scene->capacity = 3804;  // 2 x 3804 x 28 B = 213 024 B, just over the 212 992 B
   expectOnly(kBuffer, HasSubstr("two frames of this scene at full capacity need 213 kB"));
-  EXPECT_THAT(problems(facts_, kBuffer), HasSubstr("sysctl -w net.core.rmem_max=67108864"));
+  EXPECT_THAT(problems(facts_, kBuffer),
+              AllOf(HasSubstr("sysctl -w net.core.rmem_max=67108864"), HasSubstr("/etc/sysctl.d keeps it")));
   facts_.sessions[0].scene->capacity = 3803;
   EXPECT_EQ(problems(facts_, kBuffer), "");
 }
@@ -233,6 +235,62 @@ TEST_F(DoctorTest, NotesWarningsAndLosses) {
   EXPECT_THAT(notes(facts_, kSessions), AllOf(HasSubstr("support_ratio 2.5"), HasSubstr("3 inputs that the journal"),
                                               testing::Not(HasSubstr("middleware"))));
   EXPECT_EQ(problems(facts_, kSessions), "");
+}
+
+TEST_F(DoctorTest, EveryLossHasARemedyOfItsOwn) {
+  status().counters = {
+      {"journal_lost", 1}, {"replies_lost", 1}, {"write_failures", 1}, {"requests_busy", 1}, {"instruments_dropped", 1}};
+  std::set<std::string> remedies;
+  for (const Finding& finding : diagnose(facts_)) {
+    if (finding.severity == Severity::note && finding.area == std::string{kSessions}) remedies.insert(finding.remedy);
+  }
+  EXPECT_EQ(remedies.size(), 5U);
+  EXPECT_FALSE(remedies.contains(""));
+}
+
+TEST_F(DoctorTest, WhateverIsFoundComesWithWhatToDoAndNamesNothingThatOnlyTheSourcesHave) {
+  std::vector<DoctorFacts> all;
+  const auto with = [&](auto change) { change(all.emplace_back(healthy())); };
+  with([](DoctorFacts& facts) {
+    facts.sessions[0].scene.reset();
+    facts.receive_limit = 0;
+    facts.clock.reset();
+    facts.sessions[0].status.text = "wetting: off";
+    facts.sessions[0].status.counters = {{"journal_lost", 1}, {"instruments_dropped", 1}};
+  });
+  with([](DoctorFacts& facts) {
+    facts.sessions[0].scene->protocol_minor = 9;
+    facts.sessions[0].scene->capacity = 1'000'000'000;
+    facts.clock->synchronised = false;
+    facts.sessions[0].round_trip_s.reset();
+    facts.others.members.push_back({{}, 0x010f, "there", "rviz2", 8});
+    facts.others.endpoints = {{{}, true, true, "bleed/v1/request", {"theater"}}, {{}, true, true, "bleed/v7/status", {"a"}}};
+    facts.sessions.push_back(healthySession());
+  });
+  with([](DoctorFacts& facts) {
+    facts.sessions[0].status.host = "there";
+    facts.sessions[0].difference = ClockDifference{9.0, 0.001};
+    facts.clock->synchronised = false;
+    facts.sessions[0].frame_came = false;
+  });
+  with([](DoctorFacts& facts) { facts.sessions.clear(); });
+  with([](DoctorFacts& facts) {
+    facts.sessions.clear();
+    facts.asked_session = "theatre";
+    facts.config->kind = transport::ConfigKind::user;
+    facts.asked_interface = "eth7";
+  });
+  with([](DoctorFacts& facts) { facts.domain_problem = "no interface"; });
+  std::size_t count = 0;
+  for (const DoctorFacts& facts : all) {
+    for (const Finding& finding : diagnose(facts)) {
+      EXPECT_THAT(finding.remedy, testing::Not(HasSubstr("config/")));
+      if (finding.severity == Severity::ok) continue;
+      ++count;
+      EXPECT_FALSE(finding.remedy.empty()) << finding.text;
+    }
+  }
+  EXPECT_GT(count, 18U);
 }
 
 TEST_F(DoctorTest, FindsTwoDaemonsOfOneName) {

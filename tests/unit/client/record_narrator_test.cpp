@@ -47,5 +47,13 @@ TEST(RecordNarrator, ATerminalHasABarAndNewsOverIt) {
   EXPECT_EQ((RecordNarrator{"one", "a.mcap", false}.bar(at(SessionState::running, 30), {.frames = 60})), "");
 }
 
+TEST(RecordNarrator, TellsWhatAHangingFileWaitsForAndTheWayOut) {
+  const RecordNarrator narrator{"one", "a.mcap", false};
+  EXPECT_EQ(narrator.closing("cannot write to 'a.mcap': full"),
+            "cannot write to 'a.mcap': full: writing what is left; Ctrl-C gives it up\n");
+  EXPECT_EQ(narrator.closing({}), "the disk takes its time for 'a.mcap': writing what is left; Ctrl-C gives it up\n");
+  EXPECT_THAT((RecordNarrator{"one", "a.mcap", true}.closing({})), StartsWith("\r\x1b[Kthe disk"));
+}
+
 }  // namespace
 }  // namespace bleedsim::bleedctl

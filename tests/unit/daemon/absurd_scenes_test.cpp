@@ -7,6 +7,7 @@
 #include <string>
 
 #include "service/daemon/scene_loader.h"
+#include "tests/support/flat_scene.h"
 
 namespace bleedsim::daemon {
 namespace {
@@ -16,13 +17,7 @@ using testing::HasSubstr;
 constexpr double kAnyStep = std::numeric_limits<double>::infinity();
 
 std::string flatScene(double half_side, double height, std::uint32_t capacity, double spacing, const std::string& more) {
-  return fmt::format(
-      "domain {{ lower_m {{ x: -{0} y: -{0} z: -0.012 }} upper_m {{ x: {0} y: {0} z: {1} }} capacity: {2} }}\n"
-      "resolution {{ spacing_m: {3} }}\n"
-      "compressibility {{ design_speed_m_per_s: 0.3 max_fall_or_depth_m: 0.004 }}\n"
-      "effects {{ gravity {{}} pressure {{}} viscosity {{}} }}\n"
-      "tissue {{ plane {{ normal {{ z: 1.0 }} }} }}\n{4}",
-      half_side, height, capacity, spacing, more);
+  return test::FlatScene{.half_side = half_side, .height = height, .capacity = capacity, .spacing = spacing, .more = more}.text();
 }
 
 Result<LoadedScene> load(const std::string& text) { return worldFactory({.threads = 2})({text, nullptr}); }

@@ -94,6 +94,12 @@ TEST_F(LogTest, AFileThatCannotBeOpenedIsAnError) {
   EXPECT_FALSE(setUpLog({"info", path("missing/bleedd.log")}));
 }
 
+TEST_F(LogTest, SaysWhatToDoAboutAFileThatCannotBeOpened) {
+  EXPECT_THAT(LogFile::open(path("none/bleedd.log")).status().message(),
+              AllOf(HasSubstr("none/bleedd.log' cannot be opened: "), HasSubstr("; create its folder first")));
+  EXPECT_THAT(LogFile::open(folder_.string()).status().message(), HasSubstr("; it is a folder: give the name of a file"));
+}
+
 TEST_F(LogTest, WhenItCannotBeReopenedTheOldFileGoesOn) {
   const auto file = setUpLog({"info", path()});
   ASSERT_TRUE(file);

@@ -38,6 +38,27 @@ TEST(RoundTrip, EveryKindOfMessageSurvivesTheStructs) {
   }
 }
 
+TEST(RoundTrip, ATextThatFillsItsMemberWithoutAnEndIsRefusedAndNotReadBeyond) {
+  bleed_v1_Status status{};
+  std::memset(status.host, 'h', sizeof status.host);
+  recording::Status message;
+  const auto refused = toRecording(status, message);
+  EXPECT_EQ(refused.code(), StatusCode::invalid_argument);
+  EXPECT_EQ(refused.message(), "status.host has no end; the sample is malformed");
+  EXPECT_EQ(message.host(), "");
+}
+
+TEST(RoundTrip, ABooleanOfAnyByteIsTrueOrFalse) {
+  bleed_v1_Journal journal{};
+  journal.body._d = bleed_v1_JOURNAL_REQUEST;
+  bleed_v1_RequestBody& body = journal.body._u.request.request.body;
+  body._d = bleed_v1_REQUEST_EFFECT;
+  std::memset(&body._u.effect.enabled, 0x40, 1);
+  Journal message;
+  ASSERT_TRUE(toRecording(journal, message).ok());
+  EXPECT_TRUE(message.request().request().effect().enabled());
+}
+
 TEST(RoundTrip, TheFileGivesBackEveryByteInOrderWhateverTheChunks) {
   for (const std::size_t chunk_bytes : {std::size_t{1024}, std::size_t{1500}, std::size_t{20'000}, std::size_t{4} << 20}) {
     const ScratchFile file{"round_trip.mcap"};

@@ -57,5 +57,17 @@ TEST(Structure, FollowsTheSpecification) {
   EXPECT_EQ(number(bytes, data_end + 9, 4), mcap::crc32(0, mcap::bytesOf(std::string_view{bytes}.substr(0, data_end))));
 }
 
+/// What the memory of a long recording grows by, as the README tells it.
+TEST(Structure, AChunkAdds77BytesToTheIndexAnd10ForEachTopic) {
+  mcap::ChunkIndex index;
+  index.compression = "zstd";
+  for (std::uint16_t topics = 0; topics <= 5; ++topics) {
+    std::string records;
+    appendRecord(records, index);
+    EXPECT_EQ(records.size(), 77U + 10U * topics);
+    index.message_index_offsets[static_cast<std::uint16_t>(topics + 1)] = 1;
+  }
+}
+
 }  // namespace
 }  // namespace bleedsim::recording::test

@@ -84,6 +84,39 @@ TEST(WriteQueue, TakesBlocksInOrderAndChecksumsThem) {
   EXPECT_EQ(queue->write("more").code(), StatusCode::wrong_state);
 }
 
+TEST(WriteQueue, HoldsNoMoreThanTheLimitOneBlockAndTheEnd) {
+  const SlowFile slow{"bound.bin"};
+  constexpr std::size_t kLimit = std::size_t{256} << 10;
+  constexpr std::size_t kPipe = std::size_t{64} << 10;  // what the system takes from the queue
+  const std::string block(std::size_t{100} << 10, 'b');
+  auto queue = WriteQueue::open(slow.path(), kLimit);
+  ASSERT_TRUE(queue.ok());
+  std::string taken;
+  ::bleedsim::Status refused;
+  for (int i = 0; i < 20; ++i) {
+    const ::bleedsim::Status status = queue->write(block);
+    if (status) {
+      ASSERT_TRUE(refused.ok()) << "it stays so";
+      taken += block;
+    } else {
+      refused = status;
+    }
+  }
+  EXPECT_EQ(refused.code(), StatusCode::io);
+  EXPECT_THAT(refused.message(), HasSubstr("the disk is too slow"));
+  EXPECT_EQ(queue->bytes(), taken.size());
+  EXPECT_GT(taken.size(), kLimit);
+  EXPECT_LE(taken.size(), kLimit + block.size() + kPipe);
+  EXPECT_TRUE(queue->writeEnd("the end").ok());
+  taken += "the end";
+  std::string got;
+  std::thread reader{[&] { got = slow.read(); }};
+  EXPECT_EQ(queue->close().message(), refused.message());
+  reader.join();
+  EXPECT_EQ(got, taken);
+  EXPECT_EQ(queue->crc(), mcap::crc32(0, mcap::bytesOf(taken)));
+}
+
 TEST(WriteQueue, ASlowDiskEndsTheRecordingWithACompleteFile) {
   const SlowFile slow{"slow.mcap"};
   const ScratchFile copy{"slow_copy.mcap"};
@@ -102,7 +135,9 @@ TEST(WriteQueue, ASlowDiskEndsTheRecordingWithACompleteFile) {
     EXPECT_LT(writer->counts().frames, 40U);
     EXPECT_GT(writer->counts().frames, 5U);
     EXPECT_EQ(writer->append(bleed_v1_Status{}).code(), StatusCode::io) << "it stays so";
-    EXPECT_EQ(writer->tick().code(), StatusCode::io);
+    const std::uint64_t bytes = writer->counts().bytes;
+    EXPECT_EQ(writer->tick(std::chrono::steady_clock::now() + std::chrono::hours{1}).code(), StatusCode::io);
+    EXPECT_EQ(writer->counts().bytes, bytes) << "the open chunk waits for the end";
     reader = std::thread{[&] { got = slow.read(); }};
     const ::bleedsim::Status closed = writer->close();
     EXPECT_EQ(closed.code(), StatusCode::io);

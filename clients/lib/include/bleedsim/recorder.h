@@ -42,6 +42,7 @@ struct RecordingProgress {
   bool replaced = false;                       ///< a later daemon of the same name was heard; nothing of it is recorded
   SessionState state = SessionState::unknown;  ///< of the last status; frames come while it is running
   std::string state_text{};                    ///< what the session says about it
+  std::string failure{};                       ///< why file or middleware failed, before close() says so; empty: they did not
   std::string buffer_warning{};                ///< why frames may be lost on this host; empty: nothing speaks for it
 };
 

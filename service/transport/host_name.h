@@ -1,0 +1,11 @@
+// What this host calls itself.
+#pragma once
+
+#include <string>
+
+namespace bleedsim::transport {
+
+/// "unknown" when the system does not tell.
+std::string hostName();
+
+}  // namespace bleedsim::transport
