@@ -32,6 +32,7 @@ struct ImplicitSettings {
 struct SolveOutcome {
   int iterations = 0;
   bool converged = true;  ///< false: the best that max_iterations gave is in place
+  bool finite = true;     ///< false: what is in place is no velocity
 };
 
 template <class Real>
@@ -79,6 +80,7 @@ class ImplicitViscosity {
       }
       residual2 = advance(s, static_cast<Real>(weighted / curvature));
     }
+    outcome.finite = std::isfinite(residual2);
     return outcome;
   }
 
