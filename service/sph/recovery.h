@@ -46,12 +46,13 @@ inline Trouble troubleOf(bool finite, double dt, double allowed) {
 inline constexpr std::array kCountedInAttempts{Counter::neighbor_overflow, Counter::left_domain, Counter::force_without_fluid,
                                         Counter::viscosity_unsolved};
 
-/// Gives an infinite acceleration the size of the bound along the components that are infinite. False: it has no direction.
+/// Makes an infinite acceleration finite, along the components that are infinite and beyond the bound, so that the kick clamps and
+/// counts it. False: it has no direction.
 template <class Real>
 bool capInfinite(Real bound, Real* a) {
   if (std::isnan(a[0]) || std::isnan(a[1]) || std::isnan(a[2]) || !std::isfinite(a[3])) return false;
   if (std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2])) return true;
-  for (std::size_t k = 0; k < 3; ++k) a[k] = std::isinf(a[k]) ? std::copysign(bound, a[k]) : Real(0);
+  for (std::size_t k = 0; k < 3; ++k) a[k] = std::isinf(a[k]) ? std::copysign(2 * bound, a[k]) : Real(0);
   return true;
 }
 

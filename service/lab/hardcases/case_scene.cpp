@@ -28,6 +28,12 @@ sph::WorldDescription bloodScene() {
   return scene;
 }
 
+sph::WorldDescription weightlessScene() {
+  sph::WorldDescription scene = bloodScene();
+  scene.effects.gravity = sph::GravitySettings{sph::Vec3::Zero()};
+  return scene;
+}
+
 void addBlock(sph::WorldDescription& scene, const sph::Vec3& lower, const Counts& counts, const sph::Vec3& velocity) {
   sph::FluidBlock block;
   block.lower = lower;

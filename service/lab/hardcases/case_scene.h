@@ -17,6 +17,8 @@ using Counts = std::array<int, 3>;             ///< particles along x, y, z
 sph::WorldDescription emptyScene();
 /// With pressure and viscosity.
 sph::WorldDescription bloodScene();
+/// The same with a gravity of zero, which stays zero among all effects.
+sph::WorldDescription weightlessScene();
 
 void addBlock(sph::WorldDescription& scene, const sph::Vec3& lower, const Counts& counts,
               const sph::Vec3& velocity = sph::Vec3::Zero());

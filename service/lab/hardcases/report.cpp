@@ -20,6 +20,7 @@ constexpr std::array kColumns{Column{sph::Model::sound, EffectChoice::all, "soun
 const char* nameOf(sph::Precision precision) { return precision == sph::Precision::float32 ? "float" : "double"; }
 
 std::string numberText(double value) {
+  if (std::isnan(value)) return "no number";
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
   return fmt::format("{:.3g}", value);
 }

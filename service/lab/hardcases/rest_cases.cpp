@@ -96,10 +96,9 @@ void deepColumn(CaseRun& run) {
 // At 3 mm and 0.2 m/s, a draft's, so that a minute is not out of reach.
 void weightlessRest(CaseRun& run) {
   constexpr int kAcross = 4;
-  sph::WorldDescription scene = bloodScene();
+  sph::WorldDescription scene = weightlessScene();
   scene.spacing = 0.003;
   scene.compressibility.design_speed = 0.02;
-  scene.effects.gravity = sph::GravitySettings{sph::Vec3::Zero()};
   addBox(scene, {kAcross, kAcross, kAcross});
   addBlock(scene, sph::Vec3::Zero(), {kAcross, kAcross, kAcross});
   const auto trial = run.start(scene);

@@ -8,14 +8,16 @@
 namespace bleedsim::lab {
 namespace {
 
-constexpr double kSlice = 6 * kCaseSpacing;  // m, along y, between periodic sides
+constexpr int kAlong = 8;
+constexpr double kSlice = kAlong * kCaseSpacing;  // m, along y, between periodic sides
 
 sph::WorldDescription slice() {
   sph::WorldDescription scene = bloodScene();
   scene.effects.gravity.emplace();
-  scene.domain.lower = {-0.02, 0, -0.012};
-  scene.domain.upper = {0.02, kSlice, 0.02};
+  scene.domain.lower = {-0.03, 0, -0.012};
+  scene.domain.upper = {0.03, kSlice, 0.08};
   scene.domain.periodic = {false, true, false};
+  scene.compressibility.max_fall_or_depth = 0.015;
   return scene;
 }
 
@@ -25,7 +27,7 @@ sph::WorldDescription cusp() {
   sph::WorldDescription scene = slice();
   addPlane(scene, sph::Vec3::Zero(), {std::cos(half), 0, std::sin(half)});
   addPlane(scene, sph::Vec3::Zero(), {-std::cos(half), 0, std::sin(half)});
-  addBlock(scene, {-0.002, 0, 0.0095}, {4, 6, 6});
+  addBlock(scene, {-0.002, 0, 0.0095}, {4, kAlong, 5});
   return scene;
 }
 
@@ -41,7 +43,7 @@ sph::WorldDescription overAGap(double gap) {
     scene.tissue.push_back({.name = side < 0.0 ? "left" : "right", .shape = box});
     addPlane(scene, {side * 0.003, 0, 0}, {-side, 0, 0});
   }
-  addBlock(scene, {-0.003, 0, 0}, {6, 6, 4});
+  addBlock(scene, {-0.003, 0, 0}, {6, kAlong, 3});
   return scene;
 }
 

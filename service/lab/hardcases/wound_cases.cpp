@@ -40,16 +40,16 @@ void pressureSteps(CaseRun& run) {
 
 void fullToCapacity(CaseRun& run) {
   sph::WorldDescription scene = woundScene(0.002, 3e-6);
-  scene.capacity = 300;
+  scene.capacity = 200;
   const auto trial = run.start(scene);
   if (!trial) return;
   std::uint32_t most = 0;
-  if (!trial->runFor(0.15, [&] { most = std::max(most, trial->world().particleCount()); })) return;
+  if (!trial->runFor(0.08, [&] { most = std::max(most, trial->world().particleCount()); })) return;
   const sph::WorldStats stats = trial->stats();
   const auto refused = static_cast<double>(trial->counted(sph::Counter::emission_refused));
   const double particle = scene.particleVolume();
-  run.within("most particles", most, 150.0, 300.0);
-  run.atLeast("emissions refused and counted", refused, 50.0);
+  run.within("most particles", most, 100.0, 200.0);
+  run.atLeast("emissions refused and counted", refused, 25.0);
   run.atMost("volume and refused less the ledger's, particles",
              std::abs((stats.emitted_volume - stats.commanded_volume) / particle + refused), 1.0);
   sph::UpdateWound stop;

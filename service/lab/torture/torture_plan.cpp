@@ -197,10 +197,16 @@ class Maker {
     sph::UpdateWound update;
     update.wound_id = static_cast<std::uint32_t>(1 + dice_.upTo(1));
     if (dice_.chance(0.5)) update.drive = sph::FlowDrive{dice_.overMagnitudes(1e-12, 1e-5)};
-    if (dice_.chance(0.4)) update.position = dice_.within(-half_, half_).cwiseProduct(sph::Vec3{1, 1, 0});
+    if (onAPlane() && dice_.chance(0.4)) update.position = placeOnThePlane();
     if (dice_.chance(0.2)) update.shape = sph::DiscPatch{dx_ * dice_.between(0.3, 3.0)};
     if (dice_.chance(0.1)) update.position = sph::Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     return update;
+  }
+
+  bool onAPlane() const { return scene_.tissue_size() == 1 && scene_.tissue(0).has_plane(); }
+  sph::Vec3 placeOnThePlane() {
+    const sph::Vec3 at = 0.7 * dice_.within(-half_, half_);
+    return {at.x(), at.y(), -at.x() * normal_.x() / normal_.z()};
   }
 
   /// A millionth of a newton to a thousand of them; sometimes no number.
