@@ -46,8 +46,8 @@ Status writeText(const std::filesystem::path& file, const std::string& text) {
 ExitCode run(const Arguments& arguments) {
   std::vector<CaseReport> reports;
   for (const HardCase& hard_case : hardCases()) {
-    const bool wanted =
-        arguments.cases.empty() || std::find(arguments.cases.begin(), arguments.cases.end(), hard_case.name) != arguments.cases.end();
+    const bool wanted = arguments.cases.empty() ||
+                        std::find(arguments.cases.begin(), arguments.cases.end(), hard_case.name) != arguments.cases.end();
     if (!wanted) continue;
     CaseReport report{&hard_case, setupsOf(arguments.model), {}};
     report.outcomes.resize(report.setups.size());

@@ -91,7 +91,8 @@ void addTortureCommand(CLI::App& app, Context& context) {
       ->type_name("DIR");
   command->footer(
       "After every step: everything finite, nothing deeper in tissue than 0.1 spacings, count = injected - removed, no speed\n"
-      "beyond the bound, every clamp counted; refused commands leave no trace. Exit code 1: a scene failed, its seed is printed.");
+      "beyond the bound, every clamp counted; refused commands leave no trace. Exit code 1: a scene failed, its seed is "
+      "printed.");
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }
 

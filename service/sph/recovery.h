@@ -8,12 +8,13 @@
 //
 // What starts it:
 // - not_finite: a velocity, an acceleration or the implicit solve is not a finite number.
-// - too_long: the motion at the step's end allows less than half of the time that the step took. dt follows from the motion before
+// - too_long: the motion at the step's end allows less than half of the time that the step took. dt follows from the motion
+// before
 //   a step; what comes suddenly, a blow or a push, is overrun by a step that was chosen in peace. Its halves meet it at a quarter
 //   of the depth of penetration and more.
 // What does not: an acceleration or a speed beyond its bound. Rungs 2 and 3 stand for themselves there, in every step: they are
-// what lets an intruder of 10 c0 or a push of 1 kN live on, shorter steps do not make either of them weaker, and would be tried in
-// vain in every step. The bounds are so far out that a step at both of them allows a quarter of the acoustic limit.
+// what lets an intruder of 10 c0 or a push of 1 kN live on, shorter steps do not make either of them weaker, and would be tried
+// in vain in every step. The bounds are so far out that a step at both of them allows a quarter of the acoustic limit.
 //
 // A healthy step pays for this with a look at three numbers that it has anyway. Nothing is copied: the sort reads the state
 // before the step and writes a second one, with the opening kick on the way; the drift puts its places into the second of two
@@ -44,10 +45,10 @@ inline Trouble troubleOf(bool finite, double dt, double allowed) {
 
 /// What is counted before it is known whether a step holds.
 inline constexpr std::array kCountedInAttempts{Counter::neighbor_overflow, Counter::left_domain, Counter::force_without_fluid,
-                                        Counter::viscosity_unsolved};
+                                               Counter::viscosity_unsolved};
 
-/// Makes an infinite acceleration finite, along the components that are infinite and beyond the bound, so that the kick clamps and
-/// counts it. False: it has no direction.
+/// Makes an infinite acceleration finite, along the components that are infinite and beyond the bound, so that the kick clamps
+/// and counts it. False: it has no direction.
 template <class Real>
 bool capInfinite(Real bound, Real* a) {
   if (std::isnan(a[0]) || std::isnan(a[1]) || std::isnan(a[2]) || !std::isfinite(a[3])) return false;

@@ -224,8 +224,8 @@ void WorldCore<Real>::move(double dt) {
   const Real half_kick = static_cast<Real>(opening_ * dt);
   executor_->run(shares_, [&](int share) {
     drift_results_[static_cast<std::size_t>(share)] =
-        drift(particles_, passes_.formerAcceleration(), passes_.acceleration(), half_kick, static_cast<Real>(dt / h_), h_, domain_,
-              wounds_, ShareRange{count_, share, shares_}, grid_.cells());
+        drift(particles_, passes_.formerAcceleration(), passes_.acceleration(), half_kick, static_cast<Real>(dt / h_), h_,
+              domain_, wounds_, ShareRange{count_, share, shares_}, grid_.cells());
   });
   Bounds<Real> bounds;
   for (int share = 0; share < shares_; ++share) {
@@ -263,7 +263,8 @@ void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds, Real half_kick) 
     const ShareRange range{count_, share, shares_};
     std::uint32_t* cells = grid_.cells();
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      if (cells[i] != CellGrid<Real>::kRemoved) cells[i] = grid_.cellAt(moved[std::size_t{i} * 4], moved[std::size_t{i} * 4 + 1], moved[std::size_t{i} * 4 + 2]);
+      if (cells[i] != CellGrid<Real>::kRemoved)
+        cells[i] = grid_.cellAt(moved[std::size_t{i} * 4], moved[std::size_t{i} * 4 + 1], moved[std::size_t{i} * 4 + 2]);
     }
   });
   count_ = grid_.sort(count_, shares_, *executor_, [&](std::uint32_t from, std::uint32_t to) {
@@ -316,9 +317,9 @@ template <class Real>
 bool WorldCore<Real>::closeKick(double dt) {
   const auto kick = guarded_ ? guardedKick<Real> : closingKick<Real>;
   executor_->run(shares_, [&](int share) {
-    kick_results_[static_cast<std::size_t>(share)] = kick(particles_, passes_.acceleration(), gravity_,
-                                                          static_cast<Real>((1.0 - opening_) * dt), caps_,
-                                                          ShareRange{count_, share, shares_});
+    kick_results_[static_cast<std::size_t>(share)] =
+        kick(particles_, passes_.acceleration(), gravity_, static_cast<Real>((1.0 - opening_) * dt), caps_,
+             ShareRange{count_, share, shares_});
   });
   KickResult<Real>& total = kick_results_[0];
   for (int share = 1; share < shares_; ++share) total.merge(kick_results_[static_cast<std::size_t>(share)]);

@@ -9,7 +9,7 @@
 namespace bleedsim::lab {
 namespace {
 
-constexpr double kDeepest = -0.1;      // spacings
+constexpr double kDeepest = -0.1;         // spacings
 constexpr double kRounding = 1.0 + 1e-6;  // of a speed that was scaled to its bound
 constexpr double kAnything = std::numeric_limits<double>::infinity();
 
@@ -59,8 +59,7 @@ void AlwaysWatch::check(const sph::World& world) {
   if (over_cap * kRounding > 1.0 && stats.counters[indexOf(sph::Counter::speed_clamped)] == 0) ++worst_.uncounted_clamps;
   const std::uint64_t retries =
       stats.counters[indexOf(sph::Counter::step_retried)] - counters_[indexOf(sph::Counter::step_retried)];
-  const int most_iterations =
-      world.description().effects.viscosity ? world.description().effects.viscosity->max_iterations : 0;
+  const int most_iterations = world.description().effects.viscosity ? world.description().effects.viscosity->max_iterations : 0;
   if (retries > sph::kMostHalvings || stats.viscosity_iterations > most_iterations) ++worst_.beyond_caps;
   for (std::size_t k = 0; k < counters_.size(); ++k) {
     if (stats.counters[k] < counters_[k]) ++worst_.counters_fell;

@@ -8,8 +8,8 @@
 namespace bleedsim::lab {
 namespace {
 
-/// |momentum less that of the start| over the most that sum m |v| was. What is watched feels no outer force: gravity is zero, also
-/// among all effects.
+/// |momentum less that of the start| over the most that sum m |v| was. What is watched feels no outer force: gravity is zero,
+/// also among all effects.
 class MomentumWatch {
  public:
   explicit MomentumWatch(Trial& trial) : trial_{trial}, start_{trial.stats().momentum}, flow_{momentumScale(trial)} {}
@@ -108,8 +108,8 @@ void fiveThousandInACell(CaseRun& run) {
   }
   run.atMost("error of density", worst, 5e-5);
   run.atLeast("particles on the slow path, counted", static_cast<double>(trial->counted(sph::Counter::neighbor_overflow)), kMany);
-  if (!trial->runSteps(40)) return;
-  run.told("mean compression after 40 steps", trial->stats().mean_density_error);
+  if (!trial->runSteps(5)) return;
+  run.told("mean compression after 5 steps", trial->stats().mean_density_error);
 }
 
 // The density doubles, so p = rho0 c0^2: the worst that seeding can do. It blows apart, bounded and counted.

@@ -37,8 +37,8 @@ struct Figure {
 };
 
 struct CaseOutcome {
-  std::vector<Figure> figures;  ///< of the case
-  std::vector<Figure> always;   ///< physics.md section 6, "always"
+  std::vector<Figure> figures;                                                          ///< of the case
+  std::vector<Figure> always;                                                           ///< physics.md section 6, "always"
   std::array<std::uint64_t, static_cast<std::size_t>(sph::Counter::count)> counters{};  ///< of all its worlds
   std::string stopped;  ///< why it ended early: a refusal or a fault; empty if it ran to its end
 

@@ -92,7 +92,8 @@ nlohmann::json toJson(const CaseSetup& setup, const CaseOutcome& outcome) {
   for (const Figure& figure : outcome.figures) json["figures"].push_back(toJson(figure));
   for (const Figure& figure : outcome.always) json["always"].push_back(toJson(figure));
   for (std::size_t k = 0; k < outcome.counters.size(); ++k) {
-    if (outcome.counters[k] > 0) json["counters"][std::string{sph::counterName(static_cast<sph::Counter>(k))}] = outcome.counters[k];
+    if (outcome.counters[k] > 0)
+      json["counters"][std::string{sph::counterName(static_cast<sph::Counter>(k))}] = outcome.counters[k];
   }
   return json;
 }
@@ -120,9 +121,8 @@ std::string describe(const CaseSetup& setup) {
 
 std::string toMarkdown(const std::vector<CaseReport>& reports) {
   const auto shown = [&](const Column& column) {
-    return std::any_of(reports.begin(), reports.end(), [&](const CaseReport& report) {
-      return find(report, column, sph::Precision::float32) != nullptr;
-    });
+    return std::any_of(reports.begin(), reports.end(),
+                       [&](const CaseReport& report) { return find(report, column, sph::Precision::float32) != nullptr; });
   };
   std::string header = "| | asked |";
   std::string rule = "|---|---|";
@@ -145,7 +145,8 @@ std::string toMarkdown(const std::vector<CaseReport>& reports) {
 nlohmann::json toJson(const std::vector<CaseReport>& reports) {
   nlohmann::json json = nlohmann::json::array();
   for (const CaseReport& report : reports) {
-    nlohmann::json entry{{"number", report.hard_case->number}, {"name", report.hard_case->name}, {"asks", report.hard_case->asks}};
+    nlohmann::json entry{
+        {"number", report.hard_case->number}, {"name", report.hard_case->name}, {"asks", report.hard_case->asks}};
     for (std::size_t k = 0; k < report.setups.size(); ++k) entry["runs"].push_back(toJson(report.setups[k], report.outcomes[k]));
     json.push_back(std::move(entry));
   }

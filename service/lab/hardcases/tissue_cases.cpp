@@ -53,12 +53,12 @@ sph::WorldDescription overAGap(double gap) {
 // tissue beside them, and nothing comes through half a spacing.
 void cuspAndGaps(CaseRun& run) {
   const auto wedge = run.start(cusp());
-  if (!wedge || !wedge->runFor(0.15)) return;
+  if (!wedge || !wedge->runFor(0.1)) return;
   run.within("particles lost in the cusp", static_cast<double>(wedge->stats().removed), 0.0, 0.0);
   run.told("v_rms in the cusp, m/s", speedRms(*wedge));
   for (const double gap : {0.5, 1.0, 2.0}) {
     const auto trial = run.start(overAGap(gap));
-    if (!trial || !trial->runFor(0.1)) return;
+    if (!trial || !trial->runFor(0.05)) return;
     const sph::FrameBuffer& frame = trial->frame();
     auto through = static_cast<double>(trial->stats().removed);
     for (std::size_t i = 0; i < frame.count; ++i) through += positionOf(frame, i).z() < -0.5 * kCaseSpacing ? 1.0 : 0.0;

@@ -40,8 +40,10 @@ std::string textOf(const sph::Command& command) {
 std::string toText(const TorturePlan& plan) {
   std::string text = fmt::format("# bleedlab torture, scene of seed {}: {} steps in {} precision\n", plan.seed, plan.steps,
                                  plan.precision == sph::Precision::float32 ? "float32" : "double");
-  for (const TimedCommand& timed : plan.commands) text += fmt::format("# before step {}: {}\n", timed.step, textOf(timed.command));
-  for (const TimedLimit& timed : plan.limits) text += fmt::format("# before step {}: steps of at most {:.17g} s\n", timed.step, timed.limit);
+  for (const TimedCommand& timed : plan.commands)
+    text += fmt::format("# before step {}: {}\n", timed.step, textOf(timed.command));
+  for (const TimedLimit& timed : plan.limits)
+    text += fmt::format("# before step {}: steps of at most {:.17g} s\n", timed.step, timed.limit);
   return text + scene::writeText(plan.scene);
 }
 

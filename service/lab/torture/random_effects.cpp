@@ -85,7 +85,8 @@ void addRandomEffects(Dice& dice, bool literal, Scene& scene) {
     effects.mutable_adhesion()->set_acceleration_m_per_s2(dice.overMagnitudes(0.1, 900.0));
   }
   for (scene::FluidBlock& block : *scene.mutable_fluid_blocks()) {
-    if (effects.has_viscosity() && dice.chance(0.25)) block.set_viscosity_pa_s(dice.overMagnitudes(1e-4, platelets ? 0.5 : 200.0));
+    if (effects.has_viscosity() && dice.chance(0.25))
+      block.set_viscosity_pa_s(dice.overMagnitudes(1e-4, platelets ? 0.5 : 200.0));
     if (platelets && dice.chance(0.4)) block.set_platelet(dice.part());
   }
 }

@@ -112,7 +112,8 @@ class Shrinker {
     for (int k = 0; k < plan_.scene.fluid_blocks_size(); ++k) {
       const scene::FluidBlock& block = plan_.scene.fluid_blocks(k);
       simplify(block.jitter() != 0.0, [k](TorturePlan& plan) { plan.scene.mutable_fluid_blocks(k)->clear_jitter(); });
-      simplify(block.has_viscosity_pa_s(), [k](TorturePlan& plan) { plan.scene.mutable_fluid_blocks(k)->clear_viscosity_pa_s(); });
+      simplify(block.has_viscosity_pa_s(),
+               [k](TorturePlan& plan) { plan.scene.mutable_fluid_blocks(k)->clear_viscosity_pa_s(); });
       simplify(block.has_platelet(), [k](TorturePlan& plan) { plan.scene.mutable_fluid_blocks(k)->clear_platelet(); });
       simplify(block.has_velocity_m_per_s(),
                [k](TorturePlan& plan) { plan.scene.mutable_fluid_blocks(k)->clear_velocity_m_per_s(); });

@@ -42,7 +42,8 @@ class PlanRun {
       }
       for (const TimedLimit& timed : plan_.limits) {
         if (timed.step != step) continue;
-        if (timed.limit > 0.0) limit = timed.limit;
+        if (timed.limit > 0.0)
+          limit = timed.limit;
         else if (!refusesBadLimit(world_, timed.limit))
           return at(step, "a limit of no time was not refused, or left a trace");
       }

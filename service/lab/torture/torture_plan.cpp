@@ -227,11 +227,11 @@ class Maker {
   Dice& dice_;
   TorturePlan& plan_;
   Scene& scene_;
-  double dx_ = 0.0;      // m
-  double design_ = 0.0;  // m/s
-  sph::Vec3 half_ = sph::Vec3::Zero();            // of the domain, m
-  sph::Vec3 lower_, upper_;                       // where blood may start, m
-  sph::Vec3 normal_ = sph::Vec3::UnitZ();         // of the tissue that wounds are in
+  double dx_ = 0.0;                        // m
+  double design_ = 0.0;                    // m/s
+  sph::Vec3 half_ = sph::Vec3::Zero();     // of the domain, m
+  sph::Vec3 lower_, upper_;                // where blood may start, m
+  sph::Vec3 normal_ = sph::Vec3::UnitZ();  // of the tissue that wounds are in
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ std::vector<Tested> testedCases() {
 
 std::string nameOf(const Tested& tested) {
   const CaseSetup& setup = tested.setup;
-  const std::string model = setup.model == sph::Model::literal ? "literal"
+  const std::string model = setup.model == sph::Model::literal   ? "literal"
                             : setup.effects == EffectChoice::all ? "soundAll"
                                                                  : "soundNeeded";
   const std::string number = (tested.hard_case->number < 10 ? "0" : "") + std::to_string(tested.hard_case->number);

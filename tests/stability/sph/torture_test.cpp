@@ -1,9 +1,9 @@
 // Random scenes from a fixed seed: what must always hold does. bleedlab torture runs any number of others.
+#include "service/lab/torture/torture.h"
+
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <string>
-
-#include "service/lab/torture/torture.h"
 
 namespace bleedsim::lab {
 namespace {

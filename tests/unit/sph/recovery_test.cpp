@@ -18,11 +18,11 @@ constexpr double kAnyStep = std::numeric_limits<double>::infinity();
 /// What the next calls of the force pass, or of the implicit solve's product, give beside what they compute.
 template <class Real>
 struct Poison {
-  ForceFunction<Real> force = nullptr;                            // the pass itself
-  SweepFunction<ViscousProductJob<Real>> product = nullptr;       // the sweep itself
-  int calls = 0;                                                  // left
-  std::uint32_t first = 0, last = 0;                              // particles in storage order, last excluded
-  Real value = 0;                                                 // of the x component
+  ForceFunction<Real> force = nullptr;                       // the pass itself
+  SweepFunction<ViscousProductJob<Real>> product = nullptr;  // the sweep itself
+  int calls = 0;                                             // left
+  std::uint32_t first = 0, last = 0;                         // particles in storage order, last excluded
+  Real value = 0;                                            // of the x component
 };
 template <class Real>
 Poison<Real> poison;
@@ -31,7 +31,8 @@ template <class Real>
 void poisonedForce(const ForceJob<Real>& job) {
   poison<Real>.force(job);
   if (poison<Real>.calls-- <= 0) return;
-  for (std::uint32_t i = poison<Real>.first; i < poison<Real>.last; ++i) job.acceleration[std::size_t{i} * 4] = poison<Real>.value;
+  for (std::uint32_t i = poison<Real>.first; i < poison<Real>.last; ++i)
+    job.acceleration[std::size_t{i} * 4] = poison<Real>.value;
 }
 
 template <class Real>
@@ -55,13 +56,13 @@ class PoisonedWorld {
     sweeps_.uniform_viscous_product = poisonedProduct<Real>;
     const RestLattice lattice = calibrateRestLattice(description.densityKernel(), description.spacing, description.rest_density);
     auto tissue = TissueField<Real>::create(description.tissue, {.kernel = description.densityKernel(),
-                                                                .spacing = description.spacing,
-                                                                .particle_mass = lattice.particle_mass,
-                                                                .rest_density = description.rest_density,
-                                                                .radii = radiusBounds(description),
-                                                                .calibrates_radii = true});
-    world_ = std::make_unique<WorldCore<Real>>(description, WorldOptions{}, target(), WorldTables<Real>{passes_, sweeps_}, lattice,
-                                               std::move(*tissue));
+                                                                 .spacing = description.spacing,
+                                                                 .particle_mass = lattice.particle_mass,
+                                                                 .rest_density = description.rest_density,
+                                                                 .radii = radiusBounds(description),
+                                                                 .calibrates_radii = true});
+    world_ = std::make_unique<WorldCore<Real>>(description, WorldOptions{}, target(), WorldTables<Real>{passes_, sweeps_},
+                                               lattice, std::move(*tissue));
     if (const Status status = world_->populate(); !status.ok()) throw std::runtime_error{status.message()};
   }
   World* operator->() { return world_.get(); }
