@@ -1,6 +1,7 @@
 // The twenty hard cases of physics.md section 6, run by the functions that bleedlab hardcases runs.
-#include <cmath>
 #include <gtest/gtest.h>
+#include <iomanip>
+#include <sstream>
 #include <string>
 
 #include "service/lab/hardcases/report.h"
@@ -30,9 +31,10 @@ std::string nameOf(const Tested& tested) {
   const std::string model = setup.model == sph::Model::literal   ? "literal"
                             : setup.effects == EffectChoice::all ? "soundAll"
                                                                  : "soundNeeded";
-  const std::string number = (tested.hard_case->number < 10 ? "0" : "") + std::to_string(tested.hard_case->number);
-  return "c" + number + "_" + std::string{tested.hard_case->name} + "_" + model +
-         (setup.precision == sph::Precision::float32 ? "Float" : "Double");
+  std::ostringstream name;
+  name << "c" << std::setfill('0') << std::setw(2) << tested.hard_case->number << "_" << tested.hard_case->name << "_" << model
+       << (setup.precision == sph::Precision::float32 ? "Float" : "Double");
+  return name.str();
 }
 
 // NOLINTNEXTLINE(readability-identifier-naming): the name is GoogleTest's
@@ -45,7 +47,7 @@ class HardCaseTest : public testing::TestWithParam<Tested> {};
 TEST_P(HardCaseTest, holds) {
   const CaseOutcome outcome = runHardCase(*GetParam().hard_case, GetParam().setup);
   std::string figures;
-  for (const Figure& figure : outcome.figures) figures += (figures.empty() ? "" : "; ") + describe(figure);
+  for (const Figure& figure : outcome.figures) figures.append(figures.empty() ? "" : "; ").append(describe(figure));
   RecordProperty("figures", figures);
   EXPECT_TRUE(!outcome.figures.empty() || !outcome.stopped.empty());
   EXPECT_FALSE(outcome.always.empty());
