@@ -35,6 +35,8 @@ int runLab(int argc, const char* const* argv) {
   app.footer(kFooter);
   addEffectsCommand(app, context);
   addPaperCommand(app, context);
+  addHardCasesCommand(app, context);
+  addTortureCommand(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -26,7 +26,9 @@ struct Context {
 ExitCode fail(ExitCode code, const std::string& message);
 
 void addEffectsCommand(CLI::App& app, Context& context);
+void addHardCasesCommand(CLI::App& app, Context& context);
 void addPaperCommand(CLI::App& app, Context& context);
+void addTortureCommand(CLI::App& app, Context& context);
 
 int runLab(int argc, const char* const* argv);
 

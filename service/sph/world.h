@@ -50,6 +50,8 @@ enum class Counter {
   force_expired,         ///< force sources that ended by their time
   viscosity_unsolved,    ///< steps whose implicit viscosity did not reach its tolerance
   coincident_parted,     ///< particles that stood on another one's spot and were set apart
+  step_retried,          ///< steps taken back and tried with half the time (service/sph/recovery.h)
+  particle_frozen,       ///< particle-steps without a finite force: stopped where they were
   count
 };
 std::string_view counterName(Counter counter);
@@ -132,8 +134,9 @@ class World {
   /// What apply() would answer to a command of a wound now; nothing changes. ok for other commands.
   virtual Status checkWound(const Command& command) const = 0;
 
-  /// Advances by dt = min(stable dt, dt_limit). invalid_argument unless dt_limit > 0; internal once the state is not finite
-  /// (the world is then faulted and stays as it is).
+  /// Advances by dt = min(stable dt, dt_limit), or by a fraction of it where that step did not hold (recovery.h).
+  /// invalid_argument unless dt_limit > 0; internal once no step gives a finite state (the world is then faulted and stays as it
+  /// was before that step).
   virtual Status step(double dt_limit) = 0;
 
   virtual std::uint64_t stepCount() const = 0;

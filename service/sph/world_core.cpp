@@ -19,6 +19,8 @@ constexpr double kImplicitBand = 1.2;
 // How often particles on one spot are looked for. They come of bad seeding and of corners, so a few steps more do no harm.
 constexpr std::uint64_t kCoincidenceSteps = 32;
 
+constexpr double kAnyTime = std::numeric_limits<double>::infinity();  // s
+
 // Below this a second thread costs more than it brings.
 constexpr std::uint32_t kParticlesForThreads = 2000;
 
@@ -132,14 +134,14 @@ Status WorldCore<Real>::populate() {
   const FlushToZero scope;
   emit(0.0);
   chooseShares();
-  for (std::uint32_t i = 0; i < count_; ++i) grid_.cells()[i] = 0;
   // Implicit viscosity is no part of the accelerations, and these are the first ones.
   solving_viscosity_ = mustSolveViscosity(acousticLimit(limits_.spacing, limits_.speed_of_sound));
-  findNeighbors(boundsOf());
+  holdStill();
   computeAccelerations();
-  finishStep(0.0);
+  faulted_ = !closeKick(0.0);
   if (faulted_) return {StatusCode::internal, "the scene's first accelerations are not finite"};
-  chooseTimeStep(std::numeric_limits<double>::infinity());
+  finishStep(0.0);
+  chooseTimeStep(kAnyTime);
   return {};
 }
 
@@ -148,22 +150,34 @@ Status WorldCore<Real>::step(double dt_limit) {
   if (!(dt_limit > 0.0)) return {StatusCode::invalid_argument, "the step's limit must be a time greater than 0 s"};
   if (faulted_) return {StatusCode::internal, "the world is faulted: its state stopped being finite; reset it"};
   const FlushToZero scope;
-  const double stable = next_dt_;
-  const double dt = std::min(stable, dt_limit);
+  double stable = next_dt_;
+  double dt = std::min(stable, dt_limit);
   clock_.start();
-  emit(dt);
-  clock_.lap(Stage::emit);
-  chooseShares();
-  move(dt);
-  computeAccelerations();
+  mark();
+  if (const Trouble trouble = attempt(dt); trouble != Trouble::none) [[unlikely]] {
+    dt = recover(dt, trouble);
+    stable = dt;
+    if (faulted_) return {StatusCode::internal, "no step gives a finite state; the world is faulted and stays as it was before"};
+  }
   finishStep(dt);
-  if (faulted_) return {StatusCode::internal, "the state is not finite; the world is faulted and stays as it is"};
   chooseTimeStep(stable);
   last_dt_ = dt;
   time_ += dt;
   ++steps_;
   clock_.lap(Stage::integrate);
   return {};
+}
+
+/// A step of `dt` up to where it shows whether it holds; what comes after only takes and cannot be taken back.
+template <class Real>
+Trouble WorldCore<Real>::attempt(double dt) {
+  emit(dt);
+  clock_.lap(Stage::emit);
+  chooseShares();
+  move(dt);
+  computeAccelerations();
+  const bool finite = closeKick(dt);
+  return troubleOf(finite, dt, finite ? allowedTimeStep(solving_viscosity_, kAnyTime) : 0.0);
 }
 
 template <class Real>
@@ -207,10 +221,11 @@ void WorldCore<Real>::makeBlood(std::uint32_t i, std::optional<double> viscosity
 
 template <class Real>
 void WorldCore<Real>::move(double dt) {
+  const Real half_kick = static_cast<Real>(opening_ * dt);
   executor_->run(shares_, [&](int share) {
     drift_results_[static_cast<std::size_t>(share)] =
-        kickAndDrift(particles_, passes_.acceleration(), static_cast<Real>(opening_ * dt), static_cast<Real>(dt / h_), h_,
-                     domain_, wounds_, ShareRange{count_, share, shares_}, grid_.cells());
+        drift(particles_, passes_.formerAcceleration(), passes_.acceleration(), half_kick, static_cast<Real>(dt / h_), h_,
+              domain_, wounds_, ShareRange{count_, share, shares_}, grid_.cells());
   });
   Bounds<Real> bounds;
   for (int share = 0; share < shares_; ++share) {
@@ -220,21 +235,45 @@ void WorldCore<Real>::move(double dt) {
     removed_ += result.left_domain;
   }
   clock_.lap(Stage::move);
-  findNeighbors(bounds);
+  findNeighbors(bounds, half_kick);
 }
 
+/// In place of move(), where neighbours are wanted and no motion.
 template <class Real>
-void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds) {
+void WorldCore<Real>::holdStill() {
+  Bounds<Real> bounds;
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    Real* position = passes_.formerAcceleration() + std::size_t{i} * 4;
+    position[0] = particles_.x[i];
+    position[1] = particles_.y[i];
+    position[2] = particles_.z[i];
+    bounds.include(position[0], position[1], position[2]);
+    grid_.cells()[i] = 0;
+  }
+  findNeighbors(bounds, Real(0));
+}
+
+/// Sorts the particles by the cells that they have moved to, and gives them the opening kick on the way; none for `half_kick` 0.
+template <class Real>
+void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds, Real half_kick) {
+  const Real* moved = passes_.formerAcceleration();
+  const Real* acceleration = passes_.acceleration();
   grid_.cover(bounds, passes_.reach());
   executor_->run(shares_, [&](int share) {
     const ShareRange range{count_, share, shares_};
     std::uint32_t* cells = grid_.cells();
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      if (cells[i] != CellGrid<Real>::kRemoved) cells[i] = grid_.cellAt(particles_.x[i], particles_.y[i], particles_.z[i]);
+      if (cells[i] != CellGrid<Real>::kRemoved)
+        cells[i] = grid_.cellAt(moved[std::size_t{i} * 4], moved[std::size_t{i} * 4 + 1], moved[std::size_t{i} * 4 + 2]);
     }
   });
   count_ = grid_.sort(count_, shares_, *executor_, [&](std::uint32_t from, std::uint32_t to) {
     sorted_.copyOne(to, particles_, from);
+    const Real* position = moved + std::size_t{from} * 4;
+    sorted_.x[to] = position[0];
+    sorted_.y[to] = position[1];
+    sorted_.z[to] = position[2];
+    if (half_kick != Real(0)) kick(sorted_, to, particles_, from, acceleration, half_kick, wounds_);
     passes_.pack(to, sorted_);
   });
   particles_.swap(sorted_);
@@ -243,6 +282,7 @@ void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds) {
 
 template <class Real>
 void WorldCore<Real>::computeAccelerations() {
+  passes_.exchangeAccelerations();
   walls_.sample(grid_, particles_, wounds_, count_, shares_, *executor_);
   clock_.lap(Stage::tissue);
   counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
@@ -272,25 +312,24 @@ void WorldCore<Real>::computeAccelerations() {
   clock_.lap(Stage::body);
 }
 
+/// The closing kick and, where it is solved, viscosity. Whether all of it is finite.
 template <class Real>
-void WorldCore<Real>::finishStep(double dt) {
+bool WorldCore<Real>::closeKick(double dt) {
+  const auto kick = guarded_ ? guardedKick<Real> : closingKick<Real>;
   executor_->run(shares_, [&](int share) {
     kick_results_[static_cast<std::size_t>(share)] =
-        closingKick(particles_, passes_.acceleration(), gravity_, static_cast<Real>((1.0 - opening_) * dt), caps_,
-                    ShareRange{count_, share, shares_});
+        kick(particles_, passes_.acceleration(), gravity_, static_cast<Real>((1.0 - opening_) * dt), caps_,
+             ShareRange{count_, share, shares_});
   });
   KickResult<Real>& total = kick_results_[0];
-  for (int share = 1; share < shares_; ++share) {
-    const KickResult<Real>& result = kick_results_[static_cast<std::size_t>(share)];
-    total.max_speed2 = std::max(total.max_speed2, result.max_speed2);
-    total.max_acceleration2 = std::max(total.max_acceleration2, result.max_acceleration2);
-    total.speed_clamped += result.speed_clamped;
-    total.acceleration_clamped += result.acceleration_clamped;
-    total.finite = total.finite && result.finite;
-  }
-  faulted_ = !total.finite;
-  if (faulted_) return;
-  if (solving_viscosity_ && dt > 0.0) solveViscosity(dt);
+  for (int share = 1; share < shares_; ++share) total.merge(kick_results_[static_cast<std::size_t>(share)]);
+  if (!total.finite) return false;
+  max_speed_ = std::sqrt(static_cast<double>(total.max_speed2));
+  return !solving_viscosity_ || !(dt > 0.0) || solveViscosity(dt);
+}
+
+template <class Real>
+void WorldCore<Real>::finishStep(double dt) {
   if (literal_) literal_->diffuse(particles_, passes_, static_cast<Real>(dt), count_, shares_, *executor_);
   if (clotting_) {
     clotting_->advance(particles_, passes_, shearRates(), walls_, grid_, static_cast<Real>(dt), count_, shares_, *executor_);
@@ -305,27 +344,38 @@ void WorldCore<Real>::finishStep(double dt) {
   if (!literal_ && steps_ % kCoincidenceSteps == 0) {
     counter(Counter::coincident_parted) += coincidence_.part(grid_, particles_, count_, shares_, *executor_);
   }
-  counter(Counter::speed_clamped) += total.speed_clamped;
-  counter(Counter::acceleration_clamped) += total.acceleration_clamped;
-  max_speed_ = std::sqrt(static_cast<double>(total.max_speed2));
+  counter(Counter::speed_clamped) += kick_results_[0].speed_clamped;
+  counter(Counter::acceleration_clamped) += kick_results_[0].acceleration_clamped;
 }
 
+/// Whether the velocities are finite still. The ladder's last attempt goes without: the solution may be what is not.
 template <class Real>
-void WorldCore<Real>::solveViscosity(double dt) {
+bool WorldCore<Real>::solveViscosity(double dt) {
+  if (guarded_) {
+    viscosity_iterations_ = 0;
+    ++counter(Counter::viscosity_unsolved);
+    return true;
+  }
   const SolveOutcome outcome = implicit_viscosity_->solve(dt, grid_, particles_, passes_, count_, shares_, *executor_);
   viscosity_iterations_ = outcome.iterations;
   if (!outcome.converged) ++counter(Counter::viscosity_unsolved);
+  return outcome.finite;
+}
+
+/// What the present motion allows, s; `implicit` says how viscosity is solved.
+template <class Real>
+double WorldCore<Real>::allowedTimeStep(bool implicit, double before) const {
+  TimeStepLimits limits = limits_;
+  if (implicit) limits.viscous = kAnyTime;
+  const double acceleration = std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2));
+  return stableTimeStep(limits, max_speed_, acceleration, before);
 }
 
 template <class Real>
 void WorldCore<Real>::chooseTimeStep(double before) {
-  TimeStepLimits inviscid = limits_;
-  inviscid.viscous = std::numeric_limits<double>::infinity();
-  const double acceleration = std::sqrt(static_cast<double>(kick_results_[0].max_acceleration2));
-  solving_viscosity_ =
-      mustSolveViscosity(stableTimeStep(inviscid, max_speed_, acceleration, std::numeric_limits<double>::infinity()));
+  solving_viscosity_ = mustSolveViscosity(allowedTimeStep(true, kAnyTime));
   if (!solving_viscosity_) viscosity_iterations_ = 0;
-  next_dt_ = stableTimeStep(solving_viscosity_ ? inviscid : limits_, max_speed_, acceleration, before);
+  next_dt_ = allowedTimeStep(solving_viscosity_, before);
 }
 
 /// Whether viscosity is solved implicitly where the step's other limits allow `other_limit`, s.
@@ -334,13 +384,6 @@ bool WorldCore<Real>::mustSolveViscosity(double other_limit) const {
   if (!implicit_viscosity_) return false;
   if (description_.effects.viscosity->solve == ViscositySolve::implicit) return true;
   return limits_.viscous < (solving_viscosity_ ? kImplicitBand : 1.0) * other_limit;
-}
-
-template <class Real>
-Bounds<Real> WorldCore<Real>::boundsOf() const {
-  Bounds<Real> bounds;
-  for (std::uint32_t i = 0; i < count_; ++i) bounds.include(particles_.x[i], particles_.y[i], particles_.z[i]);
-  return bounds;
 }
 
 template <class Real>

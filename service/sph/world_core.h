@@ -23,6 +23,7 @@
 #include "service/sph/neighbors/coincidence.h"
 #include "service/sph/particles.h"
 #include "service/sph/passes/pair_passes.h"
+#include "service/sph/recovery.h"
 #include "service/sph/rest_lattice.h"
 #include "service/sph/seeding.h"
 #include "service/sph/stage_clock.h"
@@ -69,19 +70,28 @@ class WorldCore final : public World {
   RunningCode runningCode() const override;
 
  private:
+  // A step that held, and what is done about one that did not.
+  Trouble attempt(double dt);
+  double recover(double dt, Trouble trouble);
+  void mark();
+  void rewind();
+  void showLastState();
+
   // The stages, in order.
   void emit(double dt);
   void move(double dt);
-  void findNeighbors(const Bounds<Real>& bounds);
+  void holdStill();
+  void findNeighbors(const Bounds<Real>& bounds, Real half_kick);
   void computeAccelerations();
+  bool closeKick(double dt);
   void finishStep(double dt);
-  void solveViscosity(double dt);
+  bool solveViscosity(double dt);
+  double allowedTimeStep(bool implicit, double before) const;
   void chooseTimeStep(double before);
   bool mustSolveViscosity(double other_limit) const;
 
   const Real* shearRates() const { return shear_rate_ ? shear_rate_->data() : nullptr; }
   void makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet);
-  Bounds<Real> boundsOf() const;
   void chooseShares();
   void withdraw(const Throat& throat);
   std::uint64_t& counter(Counter c) { return counters_[static_cast<std::size_t>(c)]; }
@@ -131,6 +141,13 @@ class WorldCore final : public World {
   double max_speed_ = 0.0;
   double repulsion_start_ = -std::numeric_limits<double>::infinity();  // simulated time at which it was switched on, s
   bool faulted_ = false;
+  bool guarded_ = false;  // the attempt is the ladder's last
+  struct Before {
+    std::uint32_t count = 0, unseen = 0, next_id = 0;
+    std::uint64_t injected = 0, removed = 0;
+    std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> counters{};
+  };
+  Before before_;  // the step that is being made
   StageClock clock_;
   std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> counters_{};
 };

@@ -20,33 +20,34 @@ struct alignas(64) DriftResult {
   std::uint32_t left_domain = 0;
 };
 
-/// Opening half kick and drift of the particles of a range. Particles of a throat go where their wound is now; those it releases
-/// become free. Particles that leave the domain get CellGrid::kRemoved in `cells`, all others 0.
+/// Velocity after the opening kick of a free particle; the same bits wherever it is asked for.
 template <class Real>
-DriftResult<Real> kickAndDrift(Particles<Real>& p, const Real* acceleration, Real half_dt, Real dt_per_h, double h,
-                               const DomainBox<Real>& domain, const WoundSet& wounds, ShareRange range, std::uint32_t* cells) {
+std::array<Real, 3> kickedVelocity(const Particles<Real>& p, const Real* acceleration, std::uint32_t i, Real half_dt) {
+  const Real* a = acceleration + std::size_t{i} * 4;
+  return {p.vx[i] + a[0] * half_dt, p.vy[i] + a[1] * half_dt, p.vz[i] + a[2] * half_dt};
+}
+
+/// Drift, with the velocities of the opening half kick, of the particles of a range. Their places go into `moved`, 4 entries a
+/// particle and the last unused, so that the state before the step outlives it. Particles of a throat go where their wound is
+/// now. Particles that leave the domain get CellGrid::kRemoved in `cells`, all others 0.
+template <class Real>
+DriftResult<Real> drift(const Particles<Real>& p, Real* moved, const Real* acceleration, Real half_dt, Real dt_per_h, double h,
+                        const DomainBox<Real>& domain, const WoundSet& wounds, ShareRange range, std::uint32_t* cells) {
   DriftResult<Real> result;
   for (std::uint32_t i = range.begin; i < range.end; ++i) {
     cells[i] = 0;
+    Real* position = moved + std::size_t{i} * 4;
     if (p.driver[i] != 0) {
-      const InletState state = wounds.kinematics(p.driver[i]);
-      p.x[i] = static_cast<Real>(state.position.x() / h);
-      p.y[i] = static_cast<Real>(state.position.y() / h);
-      p.z[i] = static_cast<Real>(state.position.z() / h);
-      p.vx[i] = static_cast<Real>(state.velocity.x());
-      p.vy[i] = static_cast<Real>(state.velocity.y());
-      p.vz[i] = static_cast<Real>(state.velocity.z());
-      if (state.phase == InletPhase::released) p.driver[i] = 0;
+      const Vec3 driven = wounds.kinematics(p.driver[i]).position;
+      for (int k = 0; k < 3; ++k) position[k] = static_cast<Real>(driven[k] / h);
     } else {
-      const Real* a = acceleration + std::size_t{i} * 4;
-      p.vx[i] += a[0] * half_dt;
-      p.vy[i] += a[1] * half_dt;
-      p.vz[i] += a[2] * half_dt;
-      Real* const position[3] = {&p.x[i], &p.y[i], &p.z[i]};
-      const Real velocity[3] = {p.vx[i], p.vy[i], p.vz[i]};
+      const std::array<Real, 3> velocity = kickedVelocity(p, acceleration, i, half_dt);
+      position[0] = p.x[i];
+      position[1] = p.y[i];
+      position[2] = p.z[i];
       bool inside = true;
       for (std::size_t k = 0; k < 3; ++k) {
-        Real& x = *position[k];
+        Real& x = position[k];
         x += velocity[k] * dt_per_h;
         if (domain.periodic[k]) {
           x = domain.wrapped(k, x);
@@ -60,9 +61,28 @@ DriftResult<Real> kickAndDrift(Particles<Real>& p, const Real* acceleration, Rea
         continue;
       }
     }
-    result.bounds.include(p.x[i], p.y[i], p.z[i]);
+    result.bounds.include(position[0], position[1], position[2]);
   }
   return result;
+}
+
+/// The opening half kick of particle i, into place `to` of another order; a throat gives its particles their velocities, and
+/// frees those that it releases.
+template <class Real>
+void kick(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p, std::uint32_t i, const Real* acceleration,
+          Real half_dt, const WoundSet& wounds) {
+  if (p.driver[i] != 0) {
+    const InletState state = wounds.kinematics(p.driver[i]);
+    sorted.vx[to] = static_cast<Real>(state.velocity.x());
+    sorted.vy[to] = static_cast<Real>(state.velocity.y());
+    sorted.vz[to] = static_cast<Real>(state.velocity.z());
+    if (state.phase == InletPhase::released) sorted.driver[to] = 0;
+    return;
+  }
+  const std::array<Real, 3> velocity = kickedVelocity(p, acceleration, i, half_dt);
+  sorted.vx[to] = velocity[0];
+  sorted.vy[to] = velocity[1];
+  sorted.vz[to] = velocity[2];
 }
 
 /// Bound on accelerations, in c0^2/dx.
@@ -84,7 +104,42 @@ struct alignas(64) KickResult {
   std::uint64_t speed_clamped = 0;
   std::uint64_t acceleration_clamped = 0;
   bool finite = true;
+  std::uint32_t free = 0;    ///< particles that no wound drives; counted by guardedKick only (recovery.h)
+  std::uint32_t frozen = 0;  ///< of them, stopped by guardedKick
+
+  void merge(const KickResult& other) {
+    max_speed2 = std::max(max_speed2, other.max_speed2);
+    max_acceleration2 = std::max(max_acceleration2, other.max_acceleration2);
+    speed_clamped += other.speed_clamped;
+    acceleration_clamped += other.acceleration_clamped;
+    finite = finite && other.finite;
+    free += other.free;
+    frozen += other.frozen;
+  }
 };
+
+/// Whether velocity, acceleration and the platelets' rate of particle i are all numbers.
+template <class Real>
+bool isFiniteMotion(const Particles<Real>& p, const Real* a, std::uint32_t i) {
+  return std::isfinite(p.vx[i]) && std::isfinite(p.vy[i]) && std::isfinite(p.vz[i]) && std::isfinite(a[0]) &&
+         std::isfinite(a[1]) && std::isfinite(a[2]) && std::isfinite(a[3]);
+}
+
+/// Scales a vector, whose squared length is `square` > bound^2, to the bound; its square may have overflowed.
+template <class Real>
+void scaleTo(Real bound, Real square, Real& x, Real& y, Real& z) {
+  if (std::isinf(square)) {
+    const Real most = std::max({std::abs(x), std::abs(y), std::abs(z)});
+    x /= most;
+    y /= most;
+    z /= most;
+    square = x * x + y * y + z * z;
+  }
+  const Real scale = bound / std::sqrt(square);
+  x *= scale;
+  y *= scale;
+  z *= scale;
+}
 
 /// Adds gravity to the accelerations, clamps them, and gives the closing half kick.
 template <class Real>
@@ -103,8 +158,7 @@ KickResult<Real> closingKick(Particles<Real>& p, Real* acceleration, const std::
     for (std::size_t k = 0; k < 3; ++k) a[k] += gravity[k];
     Real a2 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
     if (a2 > acceleration_cap2) {
-      const Real scale = caps.acceleration / std::sqrt(a2);
-      for (std::size_t k = 0; k < 3; ++k) a[k] *= scale;
+      scaleTo(caps.acceleration, a2, a[0], a[1], a[2]);
       a2 = acceleration_cap2;
       ++result.acceleration_clamped;
     }
@@ -113,14 +167,11 @@ KickResult<Real> closingKick(Particles<Real>& p, Real* acceleration, const std::
     p.vz[i] += a[2] * half_dt;
     Real v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
     if (v2 > speed_cap2) {
-      const Real scale = caps.speed / std::sqrt(v2);
-      p.vx[i] *= scale;
-      p.vy[i] *= scale;
-      p.vz[i] *= scale;
+      scaleTo(caps.speed, v2, p.vx[i], p.vy[i], p.vz[i]);
       v2 = speed_cap2;
       ++result.speed_clamped;
     }
-    result.finite = result.finite && std::isfinite(v2) && std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+    result.finite = result.finite && isFiniteMotion(p, a, i);
     result.max_speed2 = std::max(result.max_speed2, v2);
     result.max_acceleration2 = std::max(result.max_acceleration2, a2);
   }

@@ -61,6 +61,7 @@ class PairPasses {
         record_{(std::size_t{capacity} + 1) * static_cast<std::size_t>(4 * groups_), 37},
         density_{capacity, 41},
         acceleration_{std::size_t{capacity} * 4, 43},
+        former_acceleration_{std::size_t{capacity} * 4, 44},
         list_at_{capacity, 47},
         blocks_{capacity, 53} {
     const double neighbors = 4.2 * support_ratio * support_ratio * support_ratio;
@@ -198,7 +199,7 @@ class PairPasses {
   Real* record(std::size_t i) { return record_.data() + i * static_cast<std::size_t>(4 * groups_); }
 
   std::size_t bytes() const {
-    return record_.bytes() + density_.bytes() + acceleration_.bytes() + list_at_.bytes() + blocks_.bytes();
+    return record_.bytes() + density_.bytes() + 2 * acceleration_.bytes() + list_at_.bytes() + blocks_.bytes();
   }
   std::size_t listBytes() const {
     std::size_t sum = 0;
@@ -211,6 +212,10 @@ class PairPasses {
 
   Real* acceleration() { return acceleration_.data(); }
   const Real* acceleration() const { return acceleration_.data(); }
+  /// Puts the accelerations aside, or back: those of a step's end are written beside those that it began with.
+  void exchangeAccelerations() { acceleration_.swap(former_acceleration_); }
+  /// What exchangeAccelerations() put aside, or the next accelerations' room until they are computed.
+  Real* formerAcceleration() { return former_acceleration_.data(); }
   const Real* density() const { return density_.data(); }
   void moveDensity(std::size_t to, std::size_t from) { density_[to] = density_[from]; }
   /// The contact distance of repulsion over its own, 0 to 1. Contacts stay as stiff as they are: force over distance goes with
@@ -261,6 +266,7 @@ class PairPasses {
   AlignedArray<Real> record_;
   AlignedArray<Real> density_;       // kg/m^3
   AlignedArray<Real> acceleration_;  // 4 per particle, m/s^2
+  AlignedArray<Real> former_acceleration_;
   AlignedArray<std::uint32_t> list_at_;
   AlignedArray<std::uint8_t> blocks_;
   std::vector<AlignedArray<std::uint32_t>> entries_;

@@ -60,7 +60,8 @@ Throat::Throat(std::uint32_t slot, const PatchFrame& frame, const PatchSites& pa
       column_{start.head_start},
       site_of_rank_(patch.sites.size()),
       rank_of_site_(patch.sites.size()),
-      holes_(patch.sites.size(), 0) {
+      holes_(patch.sites.size(), 0),
+      holes_before_(patch.sites.size(), 0) {
   assert(start.head_start >= 0.0 && start.head_start < 1.0);
   assert(start.ceilings.empty() || start.ceilings.size() == patch.sites.size());
   double extent = 0.0;
@@ -93,6 +94,7 @@ InletStep Throat::countCrossings() {
       continue;
     }
     ++step.refused;
+    keepHoles();
     const std::uint64_t count = holes_.size();
     holes_[site_of_rank_[crossed_ % count]] &= ~(std::uint64_t{1} << (crossed_ / count % 64));
   }
@@ -127,7 +129,23 @@ InletState Throat::stateOf(std::uint64_t ordinal) const {
   return {.position = frame_.toWorld(site, height), .velocity = columnSpeed() * frame_.normal, .phase = phase};
 }
 
+/// Only a world at capacity has holes, so they are not copied in every step.
+void Throat::keepHoles() {
+  if (holes_kept_) return;
+  std::copy(holes_.begin(), holes_.end(), holes_before_.begin());
+  holes_kept_ = true;
+}
+
+void Throat::rewind() {
+  column_ = before_.column;
+  entered_ = before_.entered;
+  crossed_ = before_.crossed;
+  if (holes_kept_) holes_.swap(holes_before_);
+  holes_kept_ = false;
+}
+
 void Throat::makeHole(std::uint64_t ordinal) {
+  keepHoles();
   const std::uint64_t count = holes_.size();
   holes_[site_of_rank_[ordinal % count]] |= std::uint64_t{1} << (ordinal / count % 64);
 }

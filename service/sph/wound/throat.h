@@ -60,12 +60,17 @@ class Throat {
   /// Requires dt >= 0 and columnSpeed() dt <= 8 dx.
   template <class Place>
   InletStep advance(double dt, Place&& place) {
+    before_ = {column_, entered_, crossed_};
+    holes_kept_ = false;
     moveColumn(dt);
     for (; entered_ < enteringBound(); ++entered_) {
       if (!place(InletSpawn{tagOf(entered_), stateOf(entered_)})) makeHole(entered_);
     }
     return countCrossings();
   }
+
+  /// Takes the last advance() back, once. What it placed is the owner's to remove.
+  void rewind();
 
   /// Of a particle that this throat placed and that was not yet seen as released in an earlier step.
   InletState kinematics(const InletTag& tag) const { return stateOf(ordinalOf(tag)); }
@@ -108,6 +113,7 @@ class Throat {
   InletState stateOf(std::uint64_t ordinal) const;
   double heightOf(std::uint64_t ordinal) const;
   void makeHole(std::uint64_t ordinal);
+  void keepHoles();
   bool isHole(std::uint64_t ordinal) const;
 
   std::uint32_t slot_ = 0;
@@ -129,6 +135,13 @@ class Throat {
   std::vector<std::uint32_t> site_of_rank_;
   std::vector<std::uint32_t> rank_of_site_;
   std::vector<std::uint64_t> holes_;  // by site, one bit for each serial modulo 64
+  struct Before {
+    double column = 0.0;
+    std::uint64_t entered = 0, crossed = 0;
+  };
+  Before before_;                            // the last advance()
+  std::vector<std::uint64_t> holes_before_;  // as large as holes_
+  bool holes_kept_ = false;                  // holes_before_ is of the last advance()
 };
 
 }  // namespace bleedsim::sph

@@ -242,6 +242,18 @@ void WoundSet::book(std::size_t index, const InletStep& step, double dt) {
   states_[index].emitted = static_cast<double>(wound.emitted) * particle_volume_;
 }
 
+void WoundSet::rewind() {
+  for (std::size_t i = 0; i < wounds_.size(); ++i) {
+    Wound& wound = wounds_[i];
+    wound.throat.rewind();
+    wound.emitted = wound.emitted_before;
+    states_[i].emitted = static_cast<double>(wound.emitted) * particle_volume_;
+  }
+  emitted_ = before_.emitted;
+  refused_ = before_.refused;
+  commanded_ = before_.commanded;
+}
+
 void WoundSet::withdrawThroat(std::size_t index, const WithdrawThroat& withdraw) {
   const Throat& throat = wounds_[index].throat;
   if (withdraw) withdraw(throat);

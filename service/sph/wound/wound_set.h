@@ -52,7 +52,9 @@ class WoundSet {
   template <class Place>
   InletStep advance(double dt, Place&& place) {
     InletStep total;
+    before_ = {emitted_, refused_, commanded_};
     for (std::size_t i = 0; i < wounds_.size(); ++i) {
+      wounds_[i].emitted_before = wounds_[i].emitted;
       const InletStep step = wounds_[i].throat.advance(dt, [&](InletSpawn spawn) {
         wrapInto(rules_.domain(), spawn.state.position);
         return static_cast<bool>(place(std::as_const(spawn)));
@@ -63,6 +65,9 @@ class WoundSet {
     }
     return total;
   }
+
+  /// Takes the last advance() back, once, with all that it booked. No wound may have come, changed or gone since.
+  void rewind();
 
   /// Where a tagged particle is now. On periodic axes inside the domain; elsewhere a throat may reach out of the domain, which
   /// is no reason to remove its particles. A particle found `released` must be given free (tag 0) in the same step.
@@ -93,6 +98,11 @@ class WoundSet {
     WoundDescription description;
     Throat throat;
     std::uint64_t emitted = 0;
+    std::uint64_t emitted_before = 0;  // the last advance()
+  };
+  struct Ledger {
+    std::uint64_t emitted = 0, refused = 0;
+    double commanded = 0.0;
   };
 
   struct Addition {
@@ -133,6 +143,7 @@ class WoundSet {
   std::uint64_t refused_ = 0;
   std::uint64_t withdrawn_ = 0;
   double commanded_ = 0.0;  // particles
+  Ledger before_;           // the last advance()
 };
 
 }  // namespace bleedsim::sph

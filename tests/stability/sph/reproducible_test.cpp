@@ -10,7 +10,6 @@ namespace bleedsim::test {
 namespace {
 
 constexpr double kAnyStep = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A pool over a bowl and a floor, a wound below it and one beside it, room for forces: everything that a step can touch.
 sph::WorldDescription busyScene() {
@@ -91,29 +90,6 @@ TEST(Reproducible, whateverIsReadBetweenSteps) {
     ASSERT_TRUE(watched->step(kAnyStep).ok());
   }
   EXPECT_EQ(plain->stateHash(), watched->stateHash());
-}
-
-TEST(StepLimit, boundsTheStep) {
-  const auto world = makeWorld(busyScene());
-  ASSERT_TRUE(world->step(1.0).ok());
-  const double stable = statsOf(*world).dt;
-  EXPECT_LE(stable, 0.4 * kSpacing / world->speedOfSound());
-  ASSERT_TRUE(world->step(1e-3 * stable).ok());
-  EXPECT_DOUBLE_EQ(statsOf(*world).dt, 1e-3 * stable);
-  ASSERT_TRUE(world->step(1.0).ok());
-  EXPECT_GT(statsOf(*world).dt, 0.5 * stable) << "a short request must not shorten the steps after it";
-}
-
-TEST(StepLimit, refusesWhatIsNoTime) {
-  const auto world = makeWorld(busyScene());
-  const std::uint64_t before = world->stateHash();
-  for (const double limit : {0.0, -1.0, kNan, -kAnyStep}) {
-    const Status status = world->step(limit);
-    EXPECT_EQ(status.code(), StatusCode::invalid_argument) << limit;
-    EXPECT_FALSE(status.message().empty());
-  }
-  EXPECT_EQ(world->stateHash(), before);
-  EXPECT_EQ(world->stepCount(), 0u);
 }
 
 struct Golden {

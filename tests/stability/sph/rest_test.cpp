@@ -1,4 +1,4 @@
-// Blood at rest stays at rest: physics.md sections 5 (case 4) and 6 (cases 12, 17), walls.md "column 20 dx".
+// Blood at rest stays at rest: physics.md section 5 (case 4), walls.md "column 20 dx".
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -51,47 +51,6 @@ TEST_P(RestTest, freeLatticeDoesNotDrift) {
 
 INSTANTIATE_TEST_SUITE_P(supportRatios, RestTest, testing::Values(2.0, 2.5),
                          [](const auto& tested) { return tested.param == 2.0 ? "two" : "twoAndAHalf"; });
-
-// A film of one layer settles where the spring meets its weight, c0^2 (dx/2 - d)/dx^2 = g: 0.50 dx less 0.0004 dx here
-// (walls.md).
-TEST(Film, monolayerRestsAtHalfASpacing) {
-  sph::WorldDescription scene = emptyScene();
-  scene.domain.lower = {0, 0, -0.005};
-  scene.domain.upper = {0.012, 0.012, 0.02};
-  scene.domain.periodic = {true, true, false};
-  scene.tissue.push_back({.name = "plane", .shape = sph::PlaneShape{}});
-  scene.effects.gravity.emplace();
-  scene.effects.pressure.emplace();
-  scene.effects.viscosity.emplace().viscosity = 0.05;
-  addBlock(scene, {0, 0, 0.5 * kSpacing}, {12, 12, 1});
-  const auto world = makeWorld(scene);
-  double lowest = 1.0;
-  runFor(*world, 0.3, [&] { lowest = std::min(lowest, lowestPhi(*world)); });
-  EXPECT_EQ(world->particleCount(), 144u);
-  EXPECT_NEAR(statsOf(*world).center.z() / kSpacing, 0.50, 0.02);
-  EXPECT_GT(lowest, 0.0);
-  EXPECT_LT(speedRms(*world), 0.01 * std::sqrt(kGravity * kSpacing));
-  expectInvariants(*world);
-}
-
-// A thread of single particles lands: no lateral force between particles that are at most at rest density, so it stays a thread.
-TEST(Film, filamentLandsAndStays) {
-  sph::WorldDescription scene = emptyScene();
-  scene.tissue.push_back({.name = "plane", .shape = sph::PlaneShape{}});
-  scene.domain.lower.z() = -0.01;
-  scene.effects.gravity.emplace();
-  scene.effects.pressure.emplace();
-  scene.effects.viscosity.emplace().viscosity = 0.05;
-  addBlock(scene, {-0.01, 0, 0.002}, {20, 1, 1});
-  const auto world = makeWorld(scene);
-  runFor(*world, 0.4);
-  const sph::FrameBuffer frame = frameOf(*world);
-  ASSERT_EQ(frame.count, 20u);
-  for (std::size_t i = 0; i < frame.count; ++i) {
-    EXPECT_NEAR(positionOf(frame, i).y() / kSpacing, 0.5, 0.01);
-    EXPECT_NEAR(positionOf(frame, i).z() / kSpacing, 0.50, 0.02);
-  }
-}
 
 }  // namespace
 }  // namespace bleedsim::test

@@ -1,5 +1,4 @@
-// Wounds under and beside blood, at the edge of tissue, at capacity, and under jumping pressure: physics.md section 6 (cases 14,
-// 19).
+// Wounds under and beside blood and at the edge of tissue.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -71,58 +70,6 @@ TEST(WoundStability, opensAtTheFootOfAWall) {
   EXPECT_GT(lowest, -0.1);
   EXPECT_LT(statsOf(*world).max_speed, 2.0 * std::sqrt(2.0 * kGravity * 0.005));
   EXPECT_EQ(counterOf(*world, sph::Counter::acceleration_clamped), 0u);
-  expectExactVolume(*world);
-  expectInvariants(*world);
-}
-
-// A full world refuses what does not fit, counts it, and goes on; removed particles make room again.
-TEST(WoundStability, fullToCapacity) {
-  sph::WorldDescription scene = woundOnPlane(0.003, 5e-6);
-  scene.capacity = 700;
-  const auto world = makeWorld(scene);
-  std::uint32_t most = 0;
-  runFor(*world, 0.3, [&] { most = std::max(most, world->particleCount()); });
-  const sph::WorldStats stats = statsOf(*world);
-  EXPECT_LE(most, 700u);
-  EXPECT_GT(most, 300u);
-  EXPECT_GT(stats.counters[static_cast<std::size_t>(sph::Counter::emission_refused)], 100u);
-  EXPECT_NEAR(stats.emitted_volume / particleVolume(*world), static_cast<double>(stats.injected), 1e-6);
-  expectExactVolume(*world);
-  expectInvariants(*world);
-  const std::uint64_t emitted = stats.injected;
-  sph::UpdateWound stop;
-  stop.wound_id = 1;
-  stop.drive = sph::FlowDrive{0.0};
-  ASSERT_TRUE(world->apply(stop).ok());
-  runFor(*world, 0.02);
-  EXPECT_EQ(statsOf(*world).injected, emitted);
-  expectInvariants(*world);
-}
-
-// Inlet pressure 0 <-> 120 mmHg every 20 steps: volume = integral of Q to one particle. Orifice law Q = Cd A sqrt(2 dp/rho).
-TEST(WoundStability, pressureSteps) {
-  sph::WorldDescription scene = woundOnPlane(0.001, 0.0);
-  const double high = 120.0 * 133.322;
-  scene.wounds.front().drive = sph::PressureDriveSettings{.inlet_pressure = high};
-  scene.domain.upper.z() = 0.03;
-  const auto world = makeWorld(scene);
-  double integral = 0.0;
-  for (int step = 0; step < 4000; ++step) {
-    if (step % 20 == 0) {
-      sph::UpdateWound change;
-      change.wound_id = 1;
-      change.drive = sph::PressureDriveSettings{.inlet_pressure = step % 40 == 0 ? 0.0 : high};
-      ASSERT_TRUE(world->apply(change).ok());
-    }
-    const double flow = world->wounds().front().flow;
-    ASSERT_TRUE(world->step(std::numeric_limits<double>::infinity()).ok());
-    integral += flow * statsOf(*world).dt;
-  }
-  const sph::WorldStats stats = statsOf(*world);
-  const double full_flow = 0.61 * std::acos(-1.0) * 1e-6 * std::sqrt(2.0 * high / kRestDensity);
-  EXPECT_GT(stats.emitted_volume, 0.3 * full_flow * stats.time);
-  EXPECT_LT(stats.emitted_volume, 0.7 * full_flow * stats.time);
-  EXPECT_NEAR(stats.emitted_volume / particleVolume(*world), integral / particleVolume(*world), 1.0);
   expectExactVolume(*world);
   expectInvariants(*world);
 }

@@ -22,7 +22,7 @@ Outcome run(std::vector<const char*> arguments) {
 TEST(CommandLine, WithoutACommandItListsThem) {
   const Outcome outcome = run({});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.errors, testing::HasSubstr("effects, paper"));
+  EXPECT_THAT(outcome.errors, testing::HasSubstr("effects, paper, hardcases, torture"));
 }
 
 TEST(CommandLine, WithoutAnExperimentItListsThem) {
@@ -87,7 +87,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"table_seconds_inf", {"paper", "table2", "--seconds", "inf"}, "'inf' is not a number from 0.01 to 3600"},
         BadLine{"counts_valueless", {"paper", "table2", "--counts"}, "--counts"},
         BadLine{"scenes_valueless", {"paper", "table2", "--scenes"}, "--scenes: 1 required DIR missing"},
-        BadLine{"model_valueless", {"paper", "fig5", "--model"}, "--model"}),
+        BadLine{"model_valueless", {"paper", "fig5", "--model"}, "--model"},
+        BadLine{"hard_case", {"hardcases", "--case", "easy"}, "coincident_particles"},
+        BadLine{"hard_model", {"hardcases", "--model", "true"}, "literal"},
+        BadLine{"hard_threads", {"hardcases", "--threads", "0"}, "--threads: Value 0 not in range 1 to 64"},
+        BadLine{"torture_seed", {"torture", "--seed", "-1"}, "--seed"},
+        BadLine{"torture_count", {"torture", "--count", "0"}, "--count: Value 0 not in range 1 to 10000000"},
+        BadLine{"torture_steps", {"torture", "--steps", "0"}, "--steps: Value 0 not in range 1 to 1000000"},
+        BadLine{"torture_model", {"torture", "--model", "both"}, "sound"}),
     [](const auto& tested) { return std::string{tested.param.name}; });
 
 TEST(CommandLine, AMissingSceneIsNamedWithTheFolder) {

@@ -75,6 +75,35 @@ TEST(AllocationOfTheLiteralModel, StepAllocatesNothing) {
   EXPECT_TRUE(stepped);
 }
 
+TEST(AllocationOfTheRecovery, AStepThatIsTriedAgainAllocatesNothing) {
+  WorldDescription description = test::woundOnPlane(0.002, 3e-6);
+  description.capacity = 200;  // full soon: a throat's holes are taken back, too
+  description.effects.applied_force.emplace();
+  const auto world = test::makeWorld(description);
+  SetForce blow;
+  blow.key = 1;
+  blow.position = {0.0, 0.0, 0.001};
+  blow.radius = 0.004;
+  bool stepped = true;
+  const auto turn = [&](double newtons) {
+    blow.force = {0.0, 0.0, newtons};
+    stepped = world->apply(blow).ok() && stepped;
+    for (int k = 0; k < 40; ++k) stepped = world->step(1.0).ok() && stepped;
+  };
+  for (int k = 0; k < 20; ++k) turn(0.0);
+  const std::uint64_t tried_before = test::counterOf(*world, Counter::step_retried);
+  const std::uint64_t before = test::allocationCount();
+  for (int k = 0; k < 5; ++k) {
+    turn(100.0);
+    turn(0.0);
+  }
+  const std::uint64_t after = test::allocationCount();
+  EXPECT_TRUE(stepped);
+  EXPECT_EQ(after, before);
+  EXPECT_GT(test::counterOf(*world, Counter::step_retried), tried_before) << "the blows must overrun a step";
+  EXPECT_GT(test::counterOf(*world, Counter::emission_refused), 0u) << "the world must be full";
+}
+
 TEST(AllocationCounter, Counts) {
   const std::uint64_t before = test::allocationCount();
   FrameBuffer frame;

@@ -1,0 +1,30 @@
+// The hard cases that were run, as a table for readers and as JSON for programs.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "service/lab/hardcases/hard_case.h"
+
+namespace bleedsim::lab {
+
+struct CaseReport {
+  const HardCase* hard_case = nullptr;
+  std::vector<CaseSetup> setups;
+  std::vector<CaseOutcome> outcomes;  ///< of the setups
+};
+
+/// The columns are a model with a choice of effects each; a cell says whether the case holds in float and in double, and which
+/// figure came nearest to its bound, or broke it.
+std::string toMarkdown(const std::vector<CaseReport>& reports);
+nlohmann::json toJson(const std::vector<CaseReport>& reports);
+
+/// "distance, dx 0.31 (at least 0.05)"
+std::string describe(const Figure& figure);
+/// Every judged figure that does not hold, and why the case stopped; empty if it holds.
+std::string describeFailures(const CaseOutcome& outcome);
+/// "sound, all effects, float"
+std::string describe(const CaseSetup& setup);
+
+}  // namespace bleedsim::lab

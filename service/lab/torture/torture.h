@@ -1,0 +1,26 @@
+// Runs random scenes, checks what must always hold, and makes the scene small that breaks it.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "service/lab/torture/torture_plan.h"
+
+namespace bleedsim::lab {
+
+struct TortureOutcome {
+  bool refused = false;  ///< the scene is not valid; `text` says why
+  bool holds = true;
+  std::string text;  ///< what did not hold
+  std::uint64_t particle_steps = 0;
+  std::uint64_t retried = 0;  ///< Counter::step_retried
+};
+
+/// What always holds is checked after every step. The literal model may fault, a sound world must not.
+TortureOutcome runPlan(const TorturePlan& plan);
+
+/// Drops and halves parts of the plan as long as it still fails, with at most `tries` runs. Every part that is left is needed for
+/// the failure, unless the tries ran out.
+TorturePlan shrink(TorturePlan plan, const std::function<bool(const TorturePlan&)>& fails, int tries = 300);
+
+}  // namespace bleedsim::lab

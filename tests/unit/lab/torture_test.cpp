@@ -1,0 +1,95 @@
+// A plan that fails is made small; what a failure needs stays.
+#include "service/lab/torture/torture.h"
+
+#include <gtest/gtest.h>
+
+#include "service/scene/scene.h"
+
+namespace bleedsim::lab {
+namespace {
+
+using scene::Scene;
+
+/// The first plan from a seed on that `suits`.
+template <class Suits>
+TorturePlan planThat(const Suits& suits) {
+  for (std::uint64_t seed = 1;; ++seed) {
+    TorturePlan plan = makePlan(seed, Scene::SOUND, 100);
+    if (suits(plan)) return plan;
+  }
+}
+
+bool isRich(const TorturePlan& plan) {
+  return plan.commands.size() >= 3 && plan.scene.fluid_blocks_size() >= 2 && plan.scene.tissue_size() >= 1 &&
+         plan.scene.effects().has_surface_tension() && plan.scene.effects().has_gravity() && particlesOf(plan) > 60;
+}
+
+// An injected failure: tension with a block that still holds a particle and at least five steps.
+TEST(Shrink, leavesOnlyWhatTheFailureNeeds) {
+  const TorturePlan rich = planThat(isRich);
+  int runs = 0;
+  const TorturePlan small = shrink(rich, [&](const TorturePlan& plan) {
+    ++runs;
+    return plan.scene.effects().has_surface_tension() && particlesOf(plan) >= 1 && plan.steps >= 5;
+  });
+  EXPECT_LE(runs, 300);
+  EXPECT_TRUE(small.scene.effects().has_surface_tension());
+  EXPECT_FALSE(small.scene.effects().has_gravity());
+  EXPECT_FALSE(small.scene.effects().has_pressure());
+  EXPECT_FALSE(small.scene.effects().has_viscosity());
+  EXPECT_TRUE(small.commands.empty());
+  EXPECT_TRUE(small.limits.empty());
+  EXPECT_EQ(small.scene.wounds_size(), 0);
+  EXPECT_EQ(small.scene.tissue_size(), 0);
+  ASSERT_EQ(small.scene.fluid_blocks_size(), 1);
+  EXPECT_EQ(particlesOf(small), 1u);
+  EXPECT_EQ(small.scene.fluid_blocks(0).jitter(), 0.0);
+  EXPECT_GE(small.steps, 5);
+  EXPECT_LT(small.steps, 10);
+}
+
+TEST(Shrink, keepsTheOneCommandThatMatters) {
+  const TorturePlan rich = planThat([](const TorturePlan& plan) {
+    return plan.commands.size() >= 4 && std::holds_alternative<sph::SetForce>(plan.commands[1].command);
+  });
+  const auto& wanted = std::get<sph::SetForce>(rich.commands[1].command);
+  const auto fails = [&](const TorturePlan& plan) {
+    for (const TimedCommand& timed : plan.commands) {
+      const auto* force = std::get_if<sph::SetForce>(&timed.command);
+      if (force != nullptr && force->position == wanted.position) return true;
+    }
+    return false;
+  };
+  const TorturePlan small = shrink(rich, fails);
+  ASSERT_EQ(small.commands.size(), 1u);
+  EXPECT_TRUE(fails(small));
+}
+
+TEST(Shrink, stopsWhenItsTriesAreSpent) {
+  const TorturePlan rich = planThat(isRich);
+  int runs = 0;
+  const TorturePlan same = shrink(
+      rich,
+      [&](const TorturePlan&) {
+        ++runs;
+        return false;
+      },
+      5);
+  EXPECT_EQ(runs, 5);
+  EXPECT_EQ(toText(same), toText(rich));
+}
+
+// What is written is a scene of its own, which bleedd and bleedlab read; the commands stand in front of it.
+TEST(PlanText, isASceneWithItsCommands) {
+  const TorturePlan rich = planThat([](const TorturePlan& plan) { return isRich(plan) && !runPlan(plan).refused; });
+  const std::string text = toText(rich);
+  const auto parsed = scene::parseScene(text);
+  ASSERT_TRUE(parsed.ok()) << parsed.status().message();
+  EXPECT_EQ(parsed->world.fluid_blocks.size(), static_cast<std::size_t>(rich.scene.fluid_blocks_size()));
+  std::size_t lines = 0;
+  for (std::size_t at = text.find("# before step"); at != std::string::npos; at = text.find("# before step", at + 1)) ++lines;
+  EXPECT_EQ(lines, rich.commands.size() + rich.limits.size());
+}
+
+}  // namespace
+}  // namespace bleedsim::lab
