@@ -76,6 +76,7 @@ int runBleedctl(int argc, const char* const* argv) {
   addWoundCommands(app, context);
   addEffectCommands(app, context);
   addControlCommands(app, context);
+  addCheckpointCommands(app, context);
   addDoctorCommand(app, context);
   try {
     app.parse(argc, argv);

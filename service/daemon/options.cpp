@@ -2,11 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <fmt/core.h>
 #include <iostream>
 #include <thread>
 
-#include "service/daemon/build_info.h"
+#include "service/build/build_info.h"
 #include "service/dds/command_limits.h"
 #include "service/status/number_text.h"
 #include "service/transport/domain.h"
@@ -18,6 +20,7 @@ namespace {
 constexpr int kMaxThreads = 64;
 constexpr int kMaxDefaultThreads = 8;
 constexpr double kMaxDuration = 1e9;
+constexpr double kMinCheckpointInterval = 0.001;
 
 constexpr const char* kFooter =
     "Exit codes:\n"
@@ -36,6 +39,19 @@ std::string textOf(const Status& status) { return status.message(); }
 
 CLI::Validator finiteIn(double lower, double upper) {
   return {[lower, upper](std::string& text) { return textOf(checkNumberText(text, lower, upper)); }, {}};
+}
+
+/// Empty: nothing says where.
+std::string defaultCheckpointDir() {
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string{value == nullptr ? "" : value};
+  };
+  // systemd's may list several.
+  if (const std::string state = variable("STATE_DIRECTORY"); !state.empty()) return state.substr(0, state.find(':'));
+  if (const std::string state = variable("XDG_STATE_HOME"); !state.empty()) return state + "/bleedsim";
+  const std::string home = variable("HOME");
+  return home.empty() ? home : home + "/.local/state/bleedsim";
 }
 
 }  // namespace
@@ -59,6 +75,8 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   std::string simd = "auto";
   double frame_rate = 0.0;
   double duration = 0.0;
+  double checkpoint_every = 0.0;
+  std::string checkpoint_dir;
   std::string log_file_path;
 
   CLI::App app{"bleedd simulates a bleeding scene and publishes it over DDS", "bleedd"};
@@ -91,6 +109,19 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   auto* duration_option = app.add_option("--duration", duration, "End after this many simulated seconds")
                               ->check(finiteIn(0.0, kMaxDuration))
                               ->type_name("SECONDS");
+  auto* every_option =
+      app.add_option(
+             "--checkpoint-every", checkpoint_every,
+             "Keep the whole state every so many simulated seconds, the last 3 of them, for --resume and restore requests")
+          ->check(finiteIn(kMinCheckpointInterval, kMaxDuration))
+          ->type_name("SECONDS");
+  auto* dir_option = app.add_option("--checkpoint-dir", checkpoint_dir,
+                                    "Folder of checkpoints, in which each session has its own; without it $STATE_DIRECTORY, "
+                                    "$XDG_STATE_HOME/bleedsim or ~/.local/state/bleedsim")
+                         ->type_name("DIR");
+  app.add_flag("--resume", options.resume,
+               "Go on from the newest checkpoint that is good, as after a kill; without one, start the scene")
+      ->disable_flag_override();
   app.add_option("--log-level", options.log.level, "trace, debug, info, warning, error or off")
       ->check([](const std::string& level) { return textOf(checkLogLevel(level)); })
       ->type_name("LEVEL")
@@ -116,6 +147,15 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   if (rate_option->count() > 0) options.frame_rate = frame_rate;
   if (duration_option->count() > 0) options.duration = duration;
   if (log_file->count() > 0) options.log.file = log_file_path;
+  if (every_option->count() > 0) options.checkpoint_every = checkpoint_every;
+  if (every_option->count() > 0 || dir_option->count() > 0 || options.resume) {
+    if (dir_option->count() == 0) checkpoint_dir = defaultCheckpointDir();
+    if (checkpoint_dir.empty()) {
+      std::cerr << "bleedd: where are checkpoints to be kept? Give --checkpoint-dir DIR; see bleedd --help\n";
+      return ExitCode::usage;
+    }
+    options.checkpoint_folder = (std::filesystem::path{checkpoint_dir} / options.session).string();
+  }
   options.pace = *parsePace(pace);
   options.world.simd = *sph::parseSimdTarget(simd);
   return options;
