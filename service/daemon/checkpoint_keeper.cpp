@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <utility>
 
+#include "service/status/checkpoint_name.h"
 #include "service/transport/clock.h"
 
 namespace bleedsim::daemon {
@@ -100,7 +101,9 @@ void CheckpointKeeper::write() {
     written = folder_->write(head, std::span{room_}.first(job_.bytes));
   } catch (const std::exception& failure) { written = {StatusCode::internal, failure.what()}; }
   if (written) {
-    spdlog::info("checkpoint '{}' at step {}, {:.3f} s", head.name, head.mark.step, head.mark.sim_time);
+    // Those of the clock would fill the log.
+    const auto level = isAutomaticCheckpoint(head.name) ? spdlog::level::debug : spdlog::level::info;
+    spdlog::log(level, "checkpoint '{}' at step {}, {:.3f} s", head.name, head.mark.step, head.mark.sim_time);
     showList();
   } else {
     spdlog::error("no checkpoint at step {}: {}", head.mark.step, written.message());

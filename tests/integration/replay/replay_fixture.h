@@ -40,7 +40,7 @@ class ReplayFixture : public testing::Test {
         "tissue {{ plane {{ normal {{ z: 1.0 }} }} }}\n"
         "fluid_blocks {{ lower_m {{ x: -{0} y: -{0} z: 0 }} upper_m {{ x: {0} y: {0} z: 0.018 }} jitter: 0.2 }}\n"
         "wounds {{ name: 'cut' disc {{ radius_m: 0.004 }} flow_ml_per_s: 3 }}\n"
-        "output {{ rate_hz: 500 }}\n",
+        "output {{ frame_rate_hz: 500 }}\n",
         half_width);
   }
 

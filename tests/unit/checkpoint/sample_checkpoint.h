@@ -19,8 +19,8 @@ namespace bleedsim::checkpoint {
 class ScratchFolder {
  public:
   ScratchFolder()
-      : path_{std::filesystem::path{testing::TempDir()} / ("bleedsim_checkpoint_" + std::to_string(::getpid()) + "_" +
-                                                           testing::UnitTest::GetInstance()->current_test_info()->name())} {
+      : path_{std::filesystem::path{testing::TempDir()} / "bleedsim_checkpoint" / std::to_string(::getpid()) /
+              testing::UnitTest::GetInstance()->current_test_info()->name()} {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

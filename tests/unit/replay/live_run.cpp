@@ -34,7 +34,7 @@ std::string liveScene(const std::string& effects) {
          "tissue { plane { normal { z: 1.0 } } }\n"
          "fluid_blocks { lower_m { x: -0.008 y: -0.008 z: 0 } upper_m { x: 0.008 y: 0.008 z: 0.008 } jitter: 0.2 }\n"
          "wounds { name: 'cut' disc { radius_m: 0.004 } flow_ml_per_s: 3 }\n"
-         "output { rate_hz: 1000 }\n";
+         "output { frame_rate_hz: 1000 }\n";
 }
 
 LiveRun::LiveRun(const std::string& scene_text, const std::filesystem::path& file,

@@ -1,11 +1,14 @@
 // A recorded run simulated again: bit-equal, whatever was asked of the session, or refused with the reason.
 #include "service/replay/replay.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "service/build/build_info.h"
 #include "service/checkpoint/state_file.h"
+#include "service/recording/convert.h"
+#include "service/recording/recording_reader.h"
 #include "tests/unit/replay/live_run.h"
 
 namespace bleedsim::replay {
@@ -33,7 +36,7 @@ class Replay : public testing::Test {
     if (!report) return report.status().message();
     for (const EpochReplay& epoch : report->epochs) {
       if (!epoch.broken.empty()) return epoch.broken;
-      if (epoch.difference) return "step " + std::to_string(epoch.difference->recorded.step) + " differs";
+      if (epoch.difference) return fmt::format("step {} differs", epoch.difference->recorded.step);
     }
     return {};
   }
@@ -156,7 +159,7 @@ TEST_F(Replay, OfAResumedSessionNeedsItsCheckpoint) {
   LiveRun resumed{"", file("resumed.mcap"), checkpoints_, {.session = 8}};
   EXPECT_EQ(resumed.world().stepCount(), checkpoint->head.mark.step);
   EXPECT_EQ(resumed.world().stateHash(), checkpoint->head.mark.state_hash);
-  resumed.steps(20);
+  resumed.steps(60);
   resumed.close();
   const RecordedRun run = read("resumed.mcap");
   EXPECT_THAT(problemOf(replayRun(run, {.verify = true})), HasSubstr("a checkpoint of another session"));
