@@ -102,7 +102,8 @@ class Simulation {
   Status startLoading(SceneJob job, bool reset, TimePoint now);
   Result<sph::Applied> setOutput(const dds::SetOutput& output);
   void settle(dds::DecodedRequest& request, const Result<sph::Applied>& done);
-  void answer(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id, std::string object_name = {});
+  dds::Reply replyTo(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id) const;
+  void answer(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id);
   void answerLoad(PendingLoad& load, const Status& status);
   void send(dds::Reply reply);
   template <class Applied>
@@ -177,6 +178,8 @@ class Simulation {
   std::optional<dds::DecodedRequest> asked_checkpoint_;               // answered when it is written
   bool saving_ = false;                                               // the keeper has a state
   bool saving_for_request_ = false;
+  std::uint64_t saved_step_ = 0;  // of that state
+  double saved_time_ = 0.0;       // s
   bool faulted_ = false;
   std::string fault_text_;
   bool ended_ = false;

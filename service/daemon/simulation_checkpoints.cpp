@@ -49,6 +49,8 @@ void Simulation::takeCheckpoint() {
   job.scene = scene_;
   job.loaded = loaded_scene_;
   job.mark = sessionMark();
+  saved_step_ = job.mark.step;
+  saved_time_ = job.mark.sim_time;
   saving_ = true;
   saving_for_request_ = asked;
   options_.keeper->submit(std::move(job));
@@ -66,7 +68,13 @@ void Simulation::finishCheckpoint() {
   if (!for_request || !asked_checkpoint_) return;
   dds::DecodedRequest request = std::move(*asked_checkpoint_);
   asked_checkpoint_.reset();
-  answer(request, outcome->status, 0, outcome->status ? outcome->name : std::string{});
+  dds::Reply reply = replyTo(request, outcome->status, 0);
+  if (outcome->status) {
+    reply.object_name = outcome->name;
+    reply.applied_step = saved_step_ + 1;
+    reply.sim_time = saved_time_;
+  }
+  send(std::move(reply));
   if (outcome->status && request.original) record(dds::RequestTaken{std::move(request.original), 0});
 }
 

@@ -210,7 +210,10 @@ void Simulation::answerLoad(PendingLoad& load, const Status& status) {
   reply.epoch = epoch_;
   reply.receive_stamp_ns = load.request.receive_stamp_ns;
   reply.reason = status.message();
-  if (status) reply.object_name = load.checkpoint;
+  if (status && std::holds_alternative<dds::RestoreCheckpoint>(load.request.action)) {
+    reply.object_name = load.checkpoint;
+    reply.applied_step = world_->stepCount() + 1;
+  }
   if (!status && std::holds_alternative<dds::RestoreCheckpoint>(load.request.action)) {
     reply.code = dds::replyCode(status.code());
   } else if (!status) {
@@ -220,8 +223,11 @@ void Simulation::answerLoad(PendingLoad& load, const Status& status) {
   if (status && load.request.original) record(dds::RequestTaken{std::move(load.request.original), 0});
 }
 
-void Simulation::answer(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id,
-                        std::string object_name) {
+void Simulation::answer(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id) {
+  send(replyTo(request, status, object_id));
+}
+
+dds::Reply Simulation::replyTo(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id) const {
   dds::Reply reply;
   reply.key = request.key;
   reply.code = dds::replyCode(status.code());
@@ -229,11 +235,10 @@ void Simulation::answer(const dds::DecodedRequest& request, const Status& status
   reply.sim_time = world_->time();
   reply.epoch = epoch_;
   reply.object_id = object_id;
-  reply.object_name = std::move(object_name);
   reply.reason = status.message();
   reply.receive_stamp_ns = request.receive_stamp_ns;
   if (const auto* ping = std::get_if<dds::Ping>(&request.action)) reply.client_stamp_ns = ping->client_stamp_ns;
-  send(std::move(reply));
+  return reply;
 }
 
 void Simulation::send(dds::Reply reply) {

@@ -24,8 +24,8 @@ using namespace bleedsim;
 class Bytes {
  public:
   /// Not for texts, whose bytes lie elsewhere.
-  template <class T>
-  requires(!std::is_convertible_v<T, std::string_view>) Bytes& add(const T& value) {
+  template <class T, class = std::enable_if_t<!std::is_convertible_v<T, std::string_view>>>
+  Bytes& add(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     text_.append(reinterpret_cast<const char*>(&value), sizeof value);
     return *this;
@@ -90,6 +90,9 @@ void writeRequests(const Folder& folder) {
   effect.enabled = true;
   write("effect", bleed_v1_REQUEST_EFFECT, Bytes{}.add(effect));
   write("acquire", bleed_v1_REQUEST_ACQUIRE, Bytes{}.add(bleed_v1_Lease{60.0}));
+  bleed_v1_Checkpoint named{};
+  dds::copyText("before_2", named.name);
+  write("checkpoint", bleed_v1_REQUEST_CHECKPOINT, Bytes{}.add(named));
   write("unknown", 255, Bytes{}.add(std::uint32_t{9999}));
 }
 

@@ -170,7 +170,7 @@ TEST_F(Resume, CheckpointsByRequestAndCommandLine) {
   EXPECT_THAT(kept.output, HasSubstr("checkpoint 'first' kept"));
   waitCheckpoints(daemon->session(), 1);
   EXPECT_THAT(bleedctl({"checkpoints"}).output, HasSubstr("first"));
-  EXPECT_THAT(bleedctl({"checkpoints", "--json"}).output, HasSubstr("\"name\":\"first\""));
+  EXPECT_THAT(bleedctl({"checkpoints", "--json"}).output, HasSubstr("\"name\": \"first\""));
   const test::Finished back = bleedctl({"restore", "first"});
   EXPECT_EQ(back.code, 0) << back.output;
   EXPECT_THAT(back.output, HasSubstr("returned to checkpoint 'first'"));
