@@ -78,6 +78,7 @@ int runBleedctl(int argc, const char* const* argv) {
   addEffectCommands(app, context);
   addControlCommands(app, context);
   addLeaseCommand(app, context);
+  addCheckpointCommands(app, context);
   addDoctorCommand(app, context);
   try {
     app.parse(argc, argv);

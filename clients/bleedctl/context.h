@@ -47,13 +47,14 @@ Result<client::Vec3> parseVec3(const std::string& text);
 std::string checkVec3(const std::string& text);
 
 /// One function for each group of commands; each adds its commands to the program.
-void addSessionCommands(CLI::App& app, Context& context);    // list, status, watch
-void addControlCommands(CLI::App& app, Context& context);    // pause, resume, reset, step, pace, load, shutdown
-void addWoundCommands(CLI::App& app, Context& context);      // wound add, move, set, remove; force
-void addEffectCommands(CLI::App& app, Context& context);     // effect list, on, off
-void addRecordingCommands(CLI::App& app, Context& context);  // record, info, recover, export, render
-void addLeaseCommand(CLI::App& app, Context& context);       // lease
-void addDoctorCommand(CLI::App& app, Context& context);      // doctor
+void addSessionCommands(CLI::App& app, Context& context);     // list, status, watch
+void addControlCommands(CLI::App& app, Context& context);     // pause, resume, reset, step, pace, load, shutdown
+void addCheckpointCommands(CLI::App& app, Context& context);  // checkpoint, restore, checkpoints
+void addWoundCommands(CLI::App& app, Context& context);       // wound add, move, set, remove; force
+void addEffectCommands(CLI::App& app, Context& context);      // effect list, on, off
+void addRecordingCommands(CLI::App& app, Context& context);   // record, info, recover, export, render
+void addLeaseCommand(CLI::App& app, Context& context);        // lease
+void addDoctorCommand(CLI::App& app, Context& context);       // doctor
 
 /// Parses, runs and returns the exit code.
 int runBleedctl(int argc, const char* const* argv);

@@ -42,7 +42,8 @@ std::string paceText(const client::SessionStatus& status) {
 
 /// What went wrong so far, as "  speed_clamped 3"; empty when nothing did. Counts of what came in as it should are left out.
 std::string faultText(const client::FrameStats& stats) {
-  constexpr std::array<std::string_view, 4> kTraffic{"requests", "requests_resent", "instrument_samples", "instruments_ended"};
+  constexpr std::array<std::string_view, 5> kTraffic{"requests", "requests_resent", "instrument_samples", "instruments_ended",
+                                                     "checkpoints_written"};
   std::string text;
   for (const auto& [name, value] : stats.fault_counters) {
     if (value == 0 || std::find(kTraffic.begin(), kTraffic.end(), name) != kTraffic.end()) continue;

@@ -86,6 +86,9 @@ SessionStatus fromWire(const bleed_v1_Status& wire) {
   }
   if (const Uuid holder = transport::toUuid(wire.lease_client); holder != Uuid{}) out.lease_client = holder;
   out.lease_left_s = wire.lease_left_s;
+  for (const bleed_v1_CheckpointInfo& c : elements(wire.checkpoints)) {
+    out.checkpoints.push_back({textOf(c.name), c.epoch, c.step, c.sim_time_s, c.bytes, c.realtime_stamp_ns, c.own != 0});
+  }
   return out;
 }
 
@@ -149,6 +152,7 @@ FrameStats fromWire(const bleed_v1_FrameStats& wire) {
   for (const bleed_v1_InstrumentApplied& i : elements(wire.instruments)) {
     out.instruments.push_back({transport::toUuid(i.client), i.seq, i.client_stamp_ns, i.step});
   }
+  out.journal_number = wire.journal_number;
   return out;
 }
 
@@ -163,6 +167,7 @@ Reply fromWire(const bleed_v1_Reply& wire) {
   out.client_stamp_ns = wire.client_stamp_ns;
   out.receive_stamp_ns = wire.receive_stamp_ns;
   out.reply_stamp_ns = wire.reply_stamp_ns;
+  out.object_name = textOf(wire.object_name);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "clients/lib/wire_text.h"
+#include "service/status/checkpoint_name.h"
 #include "service/status/printable_text.h"
 #include "service/status/quantity_limits.h"
 #include "service/status/request_limits.h"
@@ -38,6 +39,14 @@ template <std::size_t N>
 Status nameWound(const std::string& name, char (&into)[N]) {
   if (name.empty()) return {StatusCode::invalid_argument, "the name of the wound is empty: give the name it was opened with"};
   return setName(name, into);
+}
+
+template <std::size_t N>
+Status setCheckpoint(const std::string& name, char (&into)[N]) {
+  static_assert(N == kMaxCheckpointName + 1);
+  if (name.empty()) return {};
+  if (Status valid = checkCheckpointName(name); !valid) return valid;
+  return copyText(name, into) ? Status{} : Status{StatusCode::invalid_argument, "the name of a checkpoint is too long"};
 }
 
 }  // namespace
@@ -126,6 +135,18 @@ Result<RequestPointer> buildRemoveWound(const std::string& name) {
 RequestPointer buildAcquire(double seconds) {
   RequestPointer out = make(bleed_v1_REQUEST_ACQUIRE);
   out->wire.body._u.acquire.seconds = seconds;
+  return out;
+}
+
+Result<RequestPointer> buildCheckpoint(const std::string& name) {
+  RequestPointer out = make(bleed_v1_REQUEST_CHECKPOINT);
+  if (Status named = setCheckpoint(name, out->wire.body._u.save_checkpoint.name); !named) return named;
+  return out;
+}
+
+Result<RequestPointer> buildRestore(const std::string& name) {
+  RequestPointer out = make(bleed_v1_REQUEST_RESTORE);
+  if (Status named = setCheckpoint(name, out->wire.body._u.restore_checkpoint.name); !named) return named;
   return out;
 }
 

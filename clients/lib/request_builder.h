@@ -20,6 +20,8 @@ Result<RequestPointer> buildLoadScene(const std::string& text);
 Result<RequestPointer> buildEffect(const std::string& name, bool enabled, const std::string& settings);
 RequestPointer buildPing(std::int64_t stamp_ns);
 RequestPointer buildAcquire(double seconds);
+Result<RequestPointer> buildCheckpoint(const std::string& name);
+Result<RequestPointer> buildRestore(const std::string& name);
 /// REQUEST_PAUSE, _RESUME, _RESET, _SHUTDOWN or _RELEASE.
 RequestPointer buildPlain(std::uint32_t request);
 

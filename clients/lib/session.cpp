@@ -113,6 +113,8 @@ std::future<Reply> Session::acquireLease(std::chrono::milliseconds length) {
 }
 std::future<Reply> Session::releaseLease() { return impl_->submit(buildPlain(bleed_v1_REQUEST_RELEASE)); }
 const Uuid& Session::clientId() const { return impl_->client; }
+std::future<Reply> Session::checkpoint(const std::string& name) { return impl_->submit(buildCheckpoint(name)); }
+std::future<Reply> Session::restore(const std::string& name) { return impl_->submit(buildRestore(name)); }
 std::future<Reply> Session::shutdown() { return impl_->submit(buildPlain(bleed_v1_REQUEST_SHUTDOWN)); }
 
 Result<std::chrono::nanoseconds> Session::ping(std::chrono::nanoseconds timeout) {

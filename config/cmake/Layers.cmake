@@ -2,16 +2,19 @@
 # not allow, so the direction of the architecture holds at configure time; tests/unit/architecture greps the includes as well.
 
 set(BLEEDSIM_MAY_status)
+set(BLEEDSIM_MAY_build)
 set(BLEEDSIM_MAY_idl)
 set(BLEEDSIM_MAY_sph status)
 set(BLEEDSIM_MAY_scene status idl sph)
+set(BLEEDSIM_MAY_checkpoint status idl sph scene)
 set(BLEEDSIM_MAY_transport status idl)
 set(BLEEDSIM_MAY_dds status idl transport sph)
 set(BLEEDSIM_MAY_recording status idl)
 set(BLEEDSIM_MAY_picture status)
-set(BLEEDSIM_MAY_daemon status idl dds transport scene sph)
+set(BLEEDSIM_MAY_replay status build idl transport dds sph scene checkpoint recording)
+set(BLEEDSIM_MAY_daemon status build idl checkpoint dds transport scene sph)
 set(BLEEDSIM_MAY_client status idl transport recording picture)
-set(BLEEDSIM_MAY_lab status idl scene sph recording picture)
+set(BLEEDSIM_MAY_lab status build idl scene sph recording picture checkpoint replay)
 
 function(bleedsim_layer name)
   cmake_parse_arguments(L "" "" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})

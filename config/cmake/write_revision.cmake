@@ -19,9 +19,9 @@ file(CONFIGURE OUTPUT "${HEADER}" @ONLY CONTENT
 "// Written by config/cmake/write_revision.cmake at each build.
 #pragma once
 
-namespace bleedsim::daemon {
+namespace bleedsim {
 
 inline constexpr const char* kRevision = \"@revision@\";
 
-}  // namespace bleedsim::daemon
+}  // namespace bleedsim
 ")

@@ -24,8 +24,8 @@ struct Channels {
   /// Wound commands that may wait for surface tension at once.
   static constexpr std::size_t kMaxWaitingWounds = 64;
   /// Of these, the intake leaves to the simulation: one for the request at hand, one for the load or the switch that may end at
-  /// any time, and those of the wounds that wait.
-  static constexpr std::size_t kRepliesOfSimulation = 2 + kMaxWaitingWounds;
+  /// any time, one for the checkpoint that is being written, and those of the wounds that wait.
+  static constexpr std::size_t kRepliesOfSimulation = 3 + kMaxWaitingWounds;
 
   CommandQueue commands;                             ///< intake -> simulation
   BoundedQueue<dds::Reply> replies{kReplyCapacity};  ///< simulation, intake -> publisher

@@ -8,6 +8,8 @@ namespace {
 // Instruments share the space of force keys with forces on request, which count up from 1.
 constexpr sph::ForceKey kFirstInstrumentKey = sph::ForceKey{1} << 63U;
 
+static_assert(checkpoint::kMaxTools >= dds::kMaxInstruments);
+
 }  // namespace
 
 InstrumentTable::InstrumentTable() : next_key_{kFirstInstrumentKey} { tools_.reserve(dds::kMaxInstruments); }
@@ -34,6 +36,29 @@ InstrumentTable::Update InstrumentTable::update(const InstrumentInput& input, st
 }
 
 void InstrumentTable::remove(std::size_t index) { tools_.erase(tools_.begin() + static_cast<std::ptrdiff_t>(index)); }
+
+void InstrumentTable::mark(checkpoint::SessionMark& mark) const {
+  mark.tool_count = 0;
+  mark.next_tool_key = next_key_;
+  for (const Tool& tool : tools_) {
+    if (!tool.applied) continue;
+    mark.tools[mark.tool_count++] = {tool.sample.key.client, tool.sample.key.tool,          tool.force_key,
+                                     tool.applied->seq,      tool.applied->client_stamp_ns, tool.applied->step};
+  }
+}
+
+void InstrumentTable::restore(const checkpoint::SessionMark& mark, TimePoint now) {
+  tools_.clear();
+  next_key_ = std::max(mark.next_tool_key, kFirstInstrumentKey);
+  for (std::size_t i = 0; i < std::min(mark.tool_count, dds::kMaxInstruments); ++i) {
+    const checkpoint::Tool& from = mark.tools[i];
+    // Of no writer: the next sample of the tool counts as one of a client that started again.
+    Tool tool{{}, now, from.force_key, false, dds::InstrumentApplied{from.client, from.seq, from.client_stamp_ns, from.step}};
+    tool.sample.key = {from.client, from.tool};
+    tool.sample.seq = from.seq;
+    tools_.push_back(tool);
+  }
+}
 
 std::optional<TimePoint> InstrumentTable::nextExpiry(Clock::duration expiry) const {
   if (tools_.empty()) return {};

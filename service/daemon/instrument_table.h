@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "service/checkpoint/checkpoint.h"
 #include "service/daemon/command_queue.h"
 #include "service/dds/frame_snapshot.h"
 #include "service/dds/journal_entry.h"
@@ -35,6 +36,11 @@ class InstrumentTable {
   std::span<const Tool> tools() const { return tools_; }
   void remove(std::size_t index);
   void clear() { tools_.clear(); }
+
+  /// The tools that push, for a checkpoint.
+  void mark(checkpoint::SessionMark& mark) const;
+  /// Those tools and no others: they push as they did until they are silent for too long from `now` on, whoever holds them next.
+  void restore(const checkpoint::SessionMark& mark, TimePoint now);
 
   /// When the first tool falls silent for longer than `expiry`; nothing without tools.
   std::optional<TimePoint> nextExpiry(Clock::duration expiry) const;

@@ -30,6 +30,9 @@ class Journal {
     return entries_.tryPush(std::move(entry));
   }
 
+  /// Entries of the epoch so far; for the writer.
+  std::uint64_t lastNumber() const { return next_number_ - 1; }
+
   bool tryPop(dds::JournalEntry& out) { return entries_.tryPop(out); }
   bool empty() const { return entries_.empty(); }
 

@@ -2,10 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <thread>
 
-#include "service/daemon/build_info.h"
+#include "service/build/build_info.h"
 #include "service/dds/command_limits.h"
 #include "service/status/number_text.h"
 #include "service/status/pace_text.h"
@@ -18,6 +20,7 @@ namespace {
 constexpr int kMaxThreads = 64;
 constexpr int kMaxDefaultThreads = 8;
 constexpr double kMaxDuration = 1e9;
+constexpr double kMinCheckpointInterval = 0.001;
 
 constexpr const char* kFooter =
     "Exit codes:\n"
@@ -35,6 +38,19 @@ int defaultThreads() { return std::clamp(static_cast<int>(std::thread::hardware_
 /// What CLI11 expects of a validator: the empty text, or what is wrong.
 std::string textOf(const Status& status) { return status.message(); }
 
+/// Empty: nothing says where.
+std::string defaultCheckpointDir() {
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string{value == nullptr ? "" : value};
+  };
+  // systemd's may list several.
+  if (const std::string state = variable("STATE_DIRECTORY"); !state.empty()) return state.substr(0, state.find(':'));
+  if (const std::string state = variable("XDG_STATE_HOME"); !state.empty()) return state + "/bleedsim";
+  const std::string home = variable("HOME");
+  return home.empty() ? home : home + "/.local/state/bleedsim";
+}
+
 }  // namespace
 
 std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) {
@@ -46,6 +62,8 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   std::string simd = "auto";
   double frame_rate = 0.0;
   double duration = 0.0;
+  double checkpoint_every = 0.0;
+  std::string checkpoint_dir;
   std::string log_file_path;
 
   CLI::App app{"bleedd simulates a bleeding scene and publishes it over DDS", "bleedd"};
@@ -78,6 +96,19 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   auto* duration_option = app.add_option("--duration", duration, "End after this many simulated seconds")
                               ->check(finiteIn(0.0, kMaxDuration))
                               ->type_name("SECONDS");
+  auto* every_option =
+      app.add_option(
+             "--checkpoint-every", checkpoint_every,
+             "Keep the whole state every so many simulated seconds, the last 3 of them, for --resume and restore requests")
+          ->check(finiteIn(kMinCheckpointInterval, kMaxDuration))
+          ->type_name("SECONDS");
+  auto* dir_option = app.add_option("--checkpoint-dir", checkpoint_dir,
+                                    "Folder of checkpoints, in which each session has its own; without it $STATE_DIRECTORY, "
+                                    "$XDG_STATE_HOME/bleedsim or ~/.local/state/bleedsim")
+                         ->type_name("DIR");
+  app.add_flag("--resume", options.resume,
+               "Go on from the newest checkpoint that is good, as after a kill; without one, start the scene")
+      ->disable_flag_override();
   app.add_option("--log-level", options.log.level, "trace, debug, info, warning, error or off")
       ->check([](const std::string& level) { return textOf(checkLogLevel(level)); })
       ->type_name("LEVEL")
@@ -103,6 +134,15 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
   if (rate_option->count() > 0) options.frame_rate = frame_rate;
   if (duration_option->count() > 0) options.duration = duration;
   if (log_file->count() > 0) options.log.file = log_file_path;
+  if (every_option->count() > 0) options.checkpoint_every = checkpoint_every;
+  if (every_option->count() > 0 || dir_option->count() > 0 || options.resume) {
+    if (dir_option->count() == 0) checkpoint_dir = defaultCheckpointDir();
+    if (checkpoint_dir.empty()) {
+      std::cerr << "bleedd: where are checkpoints to be kept? Give --checkpoint-dir DIR; see bleedd --help\n";
+      return ExitCode::usage;
+    }
+    options.checkpoint_folder = (std::filesystem::path{checkpoint_dir} / options.session).string();
+  }
   options.pace = *parsePace<dds::Pace>(pace);
   options.world.simd = *sph::parseSimdTarget(simd);
   return options;

@@ -22,6 +22,9 @@ struct Options {
   std::optional<double> frame_rate;  ///< frames per simulated second
   std::optional<double> duration;    ///< simulated s
   sph::WorldOptions world;
+  std::optional<double> checkpoint_every;        ///< simulated s
+  std::optional<std::string> checkpoint_folder;  ///< of this session; without it no checkpoints are kept
+  bool resume = false;
   bool check = false;
   bool list_effects = false;
   bool json = false;  ///< of list_effects

@@ -12,12 +12,12 @@ double seconds(Clock::duration duration) { return std::chrono::duration<double>{
 double Pacer::wallElapsed(TimePoint now) const { return seconds((pause_ ? pause_->wall : now) - wall_start_); }
 double Pacer::simElapsed(double sim_time) const { return (pause_ ? pause_->sim_time : sim_time) - sim_start_; }
 
-void Pacer::restart(TimePoint now) {
+void Pacer::restart(TimePoint now, double sim_time) {
   wall_start_ = now;
-  sim_start_ = 0.0;
+  sim_start_ = sim_time;
   owed_ = 0.0;
   forgetMarks();
-  if (pause_) pause_ = Pause{now, 0.0};
+  if (pause_) pause_ = Pause{now, sim_time};
 }
 
 void Pacer::setPace(dds::Pace pace, TimePoint now, double sim_time) {

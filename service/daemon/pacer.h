@@ -16,8 +16,8 @@ class Pacer {
  public:
   Pacer(dds::Pace pace, TimePoint now) : pace_{pace}, wall_start_{now} {}
 
-  /// A new world starts at simulated time 0, owing nothing.
-  void restart(TimePoint now);
+  /// A new world starts at that simulated time, owing nothing.
+  void restart(TimePoint now, double sim_time = 0.0);
   void setPace(dds::Pace pace, TimePoint now, double sim_time);
   void pause(TimePoint now, double sim_time);
   void resume(TimePoint now, double sim_time);

@@ -43,7 +43,26 @@ ExitCode exitCodeOf(const Status& status) {
   return status.code() == StatusCode::invalid_argument ? ExitCode::usage : ExitCode::failure;
 }
 
-ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory factory, const std::shared_ptr<LogFile>& log_file,
+/// The newest good checkpoint in place of the scene, if there is one.
+void resume(const SceneFactory& factory, const std::string& folder, LoadedScene& loaded) {
+  SceneJob newest;
+  newest.checkpoint.emplace();
+  Result<LoadedScene> resumed = factory(newest);
+  if (!resumed) {
+    spdlog::warn("nothing to resume from in '{}': {}; the scene starts from its beginning", folder, resumed.status().message());
+    return;
+  }
+  const checkpoint::Head& head = resumed->restored->head;
+  if (head.loaded_text != loaded.scene->normalized_text) {
+    spdlog::warn("checkpoint '{}' is of another scene than --scene: it goes on, '{}'", head.name, resumed->scene->name);
+  }
+  spdlog::info("resumed from checkpoint '{}': step {}, {:.3f} s of epoch {}{}", head.name, head.mark.step, head.mark.sim_time,
+               head.mark.epoch, head.mark.paused ? ", paused" : "");
+  loaded = std::move(*resumed);
+}
+
+ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory factory,
+                    std::shared_ptr<checkpoint::Folder> checkpoints, const std::shared_ptr<LogFile>& log_file,
                     SignalWatch& signals) {
   const std::shared_ptr<const scene::SceneDescription> scene = loaded.scene;
   const std::string_view simd = sph::simdTargetName(loaded.world->simdTarget());
@@ -52,6 +71,8 @@ ExitCode runService(const Options& options, LoadedScene loaded, SceneFactory fac
   service_options.participant.interface = options.interface;
   service_options.session = options.session;
   service_options.simulation = {options.pace, options.frame_rate, options.duration};
+  service_options.simulation.checkpoint_every = options.checkpoint_every;
+  service_options.checkpoints = std::move(checkpoints);
   service_options.manager = findServiceManager();
   Result<std::unique_ptr<Service>> service = Service::create(service_options, std::move(loaded), std::move(factory));
   if (!service) {
@@ -92,7 +113,16 @@ ExitCode runProgram(const Options& options, const std::shared_ptr<LogFile>& log_
     fmt::print("{}", listEffects(&*parsed, options.json));
     return ExitCode::ok;
   }
-  const SceneFactory factory = worldFactory(options.world);
+  std::shared_ptr<checkpoint::Folder> checkpoints;
+  if (options.checkpoint_folder && !options.check) {
+    Result<checkpoint::Folder> folder = checkpoint::Folder::open(*options.checkpoint_folder);
+    if (!folder) {
+      spdlog::error("{}", folder.status().message());
+      return folder.status().code() == StatusCode::unavailable ? ExitCode::name_taken : ExitCode::usage;
+    }
+    checkpoints = std::make_shared<checkpoint::Folder>(std::move(*folder));
+  }
+  const SceneFactory factory = worldFactory(options.world, checkpoints);
   Result<LoadedScene> loaded = factory({{}, std::make_shared<const scene::SceneDescription>(std::move(*parsed))});
   if (!loaded) {
     spdlog::error("{}: {}", *options.scene, loaded.status().message());
@@ -102,7 +132,8 @@ ExitCode runProgram(const Options& options, const std::shared_ptr<LogFile>& log_
     fmt::print("{}", describeWorld(*loaded));
     return ExitCode::ok;
   }
-  return runService(options, std::move(*loaded), factory, log_file, signals);
+  if (options.resume) resume(factory, *options.checkpoint_folder, *loaded);
+  return runService(options, std::move(*loaded), factory, std::move(checkpoints), log_file, signals);
 }
 
 }  // namespace bleedsim::daemon

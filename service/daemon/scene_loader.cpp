@@ -5,6 +5,9 @@
 #include <spdlog/spdlog.h>
 #include <utility>
 
+#include "service/build/build_info.h"
+#include "service/checkpoint/rebuild.h"
+
 namespace bleedsim::daemon {
 namespace {
 
@@ -27,8 +30,35 @@ Result<LoadedScene> buildSwitched(const SceneJob& job, sph::WorldOptions options
   return LoadedScene{std::make_shared<const scene::SceneDescription>(std::move(*changed)), std::move(*world), {}};
 }
 
-Result<LoadedScene> build(const SceneJob& job, const sph::WorldOptions& options) {
+Result<LoadedScene> buildFrom(const checkpoint::Folder& checkpoints, const std::string& name, const sph::WorldOptions& options) {
+  Result<checkpoint::Checkpoint> read = checkpoints.read(name);
+  if (!read) return read.status();
+  Result<checkpoint::Rebuilt> rebuilt = checkpoint::rebuild(*read, options, buildId());
+  if (!rebuilt) return checkpoint::aboutCheckpoint(name, rebuilt.status());
+  FrameMailbox::Buffers frames = FrameMailbox::makeBuffers(rebuilt->scene->world.capacity);
+  return LoadedScene{std::move(rebuilt->scene), std::move(rebuilt->world), std::move(frames),
+                     RestoredSession{std::move(rebuilt->loaded), std::move(read->head)}};
+}
+
+/// The newest one that can be gone on from.
+Result<LoadedScene> buildFromNewest(const checkpoint::Folder& checkpoints, const sph::WorldOptions& options) {
+  std::string newest;
+  for (const checkpoint::Entry& entry : checkpoints.list()) {
+    Result<LoadedScene> loaded =
+        entry.readable ? buildFrom(checkpoints, entry.name, options) : checkpoint::aboutCheckpoint(entry.name, entry.readable);
+    if (loaded) return loaded;
+    if (newest.empty()) newest = loaded.status().message();
+    spdlog::warn("skipped {}", loaded.status().message());
+  }
+  if (newest.empty()) return Status{StatusCode::not_found, "there are no checkpoints yet"};
+  return Status{StatusCode::data_loss, "no checkpoint can be used; " + newest};
+}
+
+Result<LoadedScene> build(const SceneJob& job, const sph::WorldOptions& options, const checkpoint::Folder* checkpoints) {
   if (job.effect) return buildSwitched(job, options);
+  if (job.checkpoint && checkpoints == nullptr) return Status{StatusCode::wrong_state, "there is no folder of checkpoints"};
+  if (job.checkpoint && !job.checkpoint->empty()) return buildFrom(*checkpoints, *job.checkpoint, options);
+  if (job.checkpoint) return buildFromNewest(*checkpoints, options);
   std::shared_ptr<const scene::SceneDescription> description = job.known;
   if (!description) {
     Result<scene::SceneDescription> parsed = scene::parseScene(job.text);
@@ -48,11 +78,11 @@ Result<LoadedScene> build(const SceneJob& job, const sph::WorldOptions& options)
 
 }  // namespace
 
-SceneFactory worldFactory(sph::WorldOptions options) {
-  return [options](const SceneJob& job) -> Result<LoadedScene> {
+SceneFactory worldFactory(sph::WorldOptions options, std::shared_ptr<const checkpoint::Folder> checkpoints) {
+  return [options, checkpoints = std::move(checkpoints)](const SceneJob& job) -> Result<LoadedScene> {
     // A scene may ask for more memory than there is; the session must outlive that.
     try {
-      return build(job, options);
+      return build(job, options, checkpoints.get());
     } catch (const std::exception& failure) {
       return Status{StatusCode::internal,
                     std::string{"the scene could not be built ("} + failure.what() + "): use a smaller capacity or domain"};

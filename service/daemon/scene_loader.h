@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "service/checkpoint/folder.h"
 #include "service/daemon/frame_mailbox.h"
 #include "service/daemon/wakeup.h"
 #include "service/scene/change_effect.h"
@@ -16,11 +17,18 @@
 
 namespace bleedsim::daemon {
 
+/// Of a scene that goes on from a checkpoint.
+struct RestoredSession {
+  std::shared_ptr<const scene::SceneDescription> loaded;  ///< as the epoch began with it
+  checkpoint::Head head;
+};
+
 /// A scene that is ready to run.
 struct LoadedScene {
   std::shared_ptr<const scene::SceneDescription> scene;
   std::unique_ptr<sph::World> world;
   FrameMailbox::Buffers frames;
+  std::optional<RestoredSession> restored = {};
 };
 
 /// What of a running scene is to be switched: an effect by request, or what effects.auto decides now that the session knows more.
@@ -29,18 +37,20 @@ struct EffectJob {
   scene::Session session;
 };
 
-/// What to build: a scene's text, a known scene from its start, or a known scene with other effects.
+/// What to build: a scene's text, a known scene from its start, a known scene with other effects, or a checkpoint.
 struct SceneJob {
   std::string text;
   std::shared_ptr<const scene::SceneDescription> known;  ///< instead of the text
   std::optional<EffectJob> effect = {};                  ///< of `known`; the outcome has no frames, those of the old world fit
+  std::optional<std::string> checkpoint = {};            ///< its name; empty: the newest one that is good
 };
 
 /// Runs on the loader's thread. invalid_argument: the scene has problems.
 using SceneFactory = std::function<Result<LoadedScene>(const SceneJob&)>;
 
-/// The factory of the daemon: scene::parseScene and sph::createWorld. All problems of a text go to the log.
-SceneFactory worldFactory(sph::WorldOptions options);
+/// The factory of the daemon: scene::parseScene and sph::createWorld. All problems of a text go to the log, and checkpoints that
+/// were passed over. Without a folder there are no checkpoints.
+SceneFactory worldFactory(sph::WorldOptions options, std::shared_ptr<const checkpoint::Folder> checkpoints = {});
 
 /// One job at a time, in order. Neither start() nor retire() waits for the one before.
 class SceneLoader {

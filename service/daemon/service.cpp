@@ -4,7 +4,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "service/daemon/build_info.h"
+#include "service/build/build_info.h"
 #include "service/transport/clock.h"
 #include "service/transport/host_name.h"
 
@@ -42,8 +42,17 @@ Result<std::unique_ptr<Service>> Service::create(const ServiceOptions& options, 
   if (!intake) return Status{StatusCode::io, intake.status().message()};
   service->publisher_ = std::move(*publisher);
   service->intake_ = std::move(*intake);
+  SimulationOptions simulation = options.simulation;
+  if (options.checkpoints) {
+    const dds::SessionIdentity& identity = service->identity_;
+    Channels& channels = service->channels_;
+    service->keeper_ =
+        std::make_unique<CheckpointKeeper>(options.checkpoints, CheckpointOrigin{identity.build_id, identity.name, identity.uuid},
+                                           channels.board, channels.commands.wakeup(), channels.publisher);
+    simulation.keeper = service->keeper_.get();
+  }
   service->simulation_ =
-      std::make_unique<Simulation>(options.simulation, std::move(first), std::move(factory), service->channels_, Clock::now());
+      std::make_unique<Simulation>(simulation, std::move(first), std::move(factory), service->channels_, Clock::now());
   service->supervisor_ = std::make_unique<Supervisor>(service->channels_, options.manager, Clock::now());
   return service;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "service/daemon/channels.h"
+#include "service/daemon/checkpoint_keeper.h"
 #include "service/daemon/intake.h"
 #include "service/daemon/publisher.h"
 #include "service/daemon/simulation.h"
@@ -19,6 +20,7 @@ struct ServiceOptions {
   transport::ParticipantOptions participant;
   std::string session = transport::kDefaultSession;
   SimulationOptions simulation;
+  std::shared_ptr<checkpoint::Folder> checkpoints = {};  ///< null: none are kept
   ServiceManager manager;
 };
 
@@ -42,6 +44,7 @@ class Service {
 
   dds::SessionIdentity identity_;
   Channels channels_;
+  std::unique_ptr<CheckpointKeeper> keeper_;
   std::unique_ptr<Publisher> publisher_;
   std::unique_ptr<Intake> intake_;
   std::unique_ptr<Simulation> simulation_;

@@ -27,13 +27,16 @@ enum class ServiceCounter {
   journal_lost,           ///< inputs that the journal had no room for
   replies_lost,           ///< replies that found no room; the client asks again
   write_failures,         ///< samples that the middleware did not take
+  checkpoints_written,
+  checkpoints_failed,  ///< for want of room on the disk or in memory
   count
 };
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(ServiceCounter::count)> kServiceCounterNames{
     "requests",           "requests_refused",   "requests_resent",       "requests_busy",       "requests_stale",
     "requests_missed",    "instrument_samples", "instruments_malformed", "instruments_dropped", "instruments_refused",
-    "instruments_missed", "instruments_ended",  "journal_lost",          "replies_lost",        "write_failures"};
+    "instruments_missed", "instruments_ended",  "journal_lost",          "replies_lost",        "write_failures",
+    "checkpoints_written", "checkpoints_failed"};
 
 class ServiceCounters {
  public:

@@ -53,20 +53,24 @@ Simulation::Simulation(const SimulationOptions& options, LoadedScene first, Scen
       pacer_{options.pace, now},
       frame_clock_{options.frame_rate.value_or(first.scene->frame_rate)} {
   attributes_ = first.scene->attributes;
+  if (options.keeper != nullptr && options.checkpoint_every) checkpoint_clock_.emplace(1.0 / *options.checkpoint_every);
+  const bool paused = first.restored && first.restored->head.mark.paused;
   install(std::move(first), now);
+  if (!paused) return;
+  pacer_.pause(now, world_->time());
+  showState();
 }
 
 void Simulation::install(LoadedScene loaded, TimePoint now) {
   const bool other_scene = loaded.scene != loaded_scene_;
   world_ = std::move(loaded.world);
   scene_ = std::move(loaded.scene);
-  loaded_scene_ = scene_;
+  loaded_scene_ = loaded.restored ? loaded.restored->loaded : scene_;
   ++epoch_;
   if (other_scene) {
     frame_clock_ = FrameClock{options_.frame_rate.value_or(scene_->frame_rate)};
     attributes_ = scene_->attributes;
   }
-  attributes_ &= availableAttributes();
   faulted_ = false;
   fault_text_.clear();
   steps_left_ = 0;
@@ -75,14 +79,22 @@ void Simulation::install(LoadedScene loaded, TimePoint now) {
   narrowest_wound_ = std::numeric_limits<double>::infinity();
   instruments_.clear();
   wound_names_.clear();
-  for (std::uint32_t i = 0; i < scene_->world.wounds.size(); ++i) wound_names_.set(i + 1, scene_->world.wounds[i].name);
-  pacer_.restart(now);
-  frame_clock_.restart();
+  pacer_.restart(now, world_->time());
   channels_.journal.beginEpoch(epoch_);
   channels_.frames.renew(std::move(loaded.frames));
+  if (loaded.restored) {
+    goOnFrom(loaded.restored->head, now);
+  } else {
+    for (std::uint32_t i = 0; i < scene_->world.wounds.size(); ++i) wound_names_.set(i + 1, scene_->world.wounds[i].name);
+    frame_clock_.restart();
+    frame_clock_.take(world_->time());
+  }
+  attributes_ &= availableAttributes();
+  // A killed daemon comes back to this epoch, not to the one before.
+  checkpoint_due_ = checkpoint_clock_.has_value();
+  if (checkpoint_clock_) checkpoint_clock_->setRate(checkpoint_clock_->rate(), world_->time());
   recordNewNotes({});
   postScene();
-  frame_clock_.take(world_->time());
   publishFrame(now);
   showState();
 }
@@ -125,6 +137,8 @@ Simulation::Next Simulation::end() {
   for (const WaitingWound& waiting : std::exchange(waiting_wounds_, {})) answer(waiting.request, ending, 0);
   pending_load_.reset();
   pending_switch_.reset();
+  if (asked_checkpoint_) answer(*asked_checkpoint_, ending, 0);
+  asked_checkpoint_.reset();
   while (channels_.commands.tryPop(input_)) {
     if (const auto* request = std::get_if<dds::DecodedRequest>(&input_)) answer(*request, ending, 0);
   }
@@ -135,11 +149,13 @@ Simulation::Next Simulation::tick(TimePoint now) {
   channels_.simulation_pulse.beat();
   finishLoading(now);
   finishSwitching();
+  finishCheckpoint();
   const bool more = drainInputs(now);
   applyInstruments();
   endSilentInstruments(now);
   if (ended_ || stop_requested_.load(std::memory_order_relaxed)) return end();
 
+  takeCheckpoint();
   const dds::SessionState current = state();
   // Steps by hand keep their place behind a switch or a wound that was asked for before them.
   const bool stepping = current == dds::SessionState::paused && steps_left_ > 0 && !pending_switch_;
@@ -184,6 +200,7 @@ void Simulation::advance(TimePoint now) {
                            pacer_.behind(now, time));
   if (in_pause) --steps_left_;
   const bool frame_due = frame_clock_.take(time);
+  if (checkpoint_clock_ && checkpoint_clock_->take(time)) checkpoint_due_ = true;
   ended_ = options_.duration.has_value() && time >= *options_.duration;
   // Whoever steps by hand, or ends the session at a time, wants to see the state it ends in.
   const bool last_by_hand = in_pause && steps_left_ == 0;
@@ -201,6 +218,7 @@ void Simulation::publishFrame(TimePoint now) {
                          wounds.begin() + static_cast<std::ptrdiff_t>(std::min(wounds.size(), dds::kMaxWoundLedgers)));
   snapshot.state_hash = world_->stateHash();
   snapshot.epoch = epoch_;
+  snapshot.journal_number = channels_.journal.lastNumber();
   snapshot.steps_in_frame = steps_in_frame_;
   for (std::size_t i = 0; i < stage_seconds_at_frame_.size(); ++i) {
     const double spent = snapshot.stats.stage_seconds[i] - stage_seconds_at_frame_[i];
@@ -237,6 +255,7 @@ void Simulation::finishLoading(TimePoint now) {
   const bool goes_on = !load.stay_paused && (outcome || !load.was_faulted);
   if (goes_on) pacer_.resume(now, world_->time());
   if (outcome) {
+    if ((*finished)->restored) load.checkpoint = (*finished)->restored->head.name;
     install(std::move(**finished), now);
   } else {
     showState();

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "service/checkpoint/checkpoint.h"
 #include "service/daemon/channels.h"
 #include "service/daemon/frame_clock.h"
 #include "service/daemon/instrument_table.h"
@@ -23,10 +24,16 @@
 
 namespace bleedsim::daemon {
 
+class CheckpointKeeper;
+
 struct SimulationOptions {
   dds::Pace pace;
-  std::optional<double> frame_rate;  ///< frames per simulated second, instead of the scenes'
-  std::optional<double> duration;    ///< simulated s of one epoch after which the session ends
+  std::optional<double> frame_rate;    ///< frames per simulated second, instead of the scenes'
+  std::optional<double> duration;      ///< simulated s of one epoch after which the session ends
+  CheckpointKeeper* keeper = nullptr;  ///< null: no checkpoints
+  /// Simulated s between checkpoints that the service takes by itself, at the first state at or after each multiple of it, the
+  /// first of an epoch included.
+  std::optional<double> checkpoint_every = {};
 };
 
 class Simulation {
@@ -57,11 +64,13 @@ class Simulation {
     bool reset = false;
     bool stay_paused = false;  // the new world waits as the old one did
     bool was_faulted = false;
+    std::string checkpoint{};  // that was restored
   };
 
   /// Another world is built beside the one that runs: for a request, or without one for wounds that wait.
   struct PendingSwitch {
     std::optional<dds::DecodedRequest> request;
+    double narrowest_wound = 0.0;  // m, that it is decided for
   };
   struct WaitingWound {
     dds::DecodedRequest request;
@@ -93,6 +102,7 @@ class Simulation {
   Status startLoading(SceneJob job, bool reset, TimePoint now);
   Result<sph::Applied> setOutput(const dds::SetOutput& output);
   void settle(dds::DecodedRequest& request, const Result<sph::Applied>& done);
+  dds::Reply replyTo(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id) const;
   void answer(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id);
   void answerLoad(PendingLoad& load, const Status& status);
   void send(dds::Reply reply);
@@ -113,6 +123,14 @@ class Simulation {
   std::uint32_t availableAttributes() const;
   bool acts(std::string_view effect) const;
   std::vector<std::string> notes() const;
+
+  // simulation_checkpoints.cpp
+  Status wantCheckpoint() const;
+  Status startRestoring(const std::string& name, TimePoint now);
+  void takeCheckpoint();
+  void finishCheckpoint();
+  checkpoint::SessionMark sessionMark() const;
+  void goOnFrom(const checkpoint::Head& head, TimePoint now);
 
   // simulation_wounds.cpp
   bool callsForTension(double width) const;
@@ -155,6 +173,13 @@ class Simulation {
   std::optional<PendingSwitch> pending_switch_;                       // at most one of the two: there is one loader
   std::vector<WaitingWound> waiting_wounds_;                          // in order, until surface tension is there
   double narrowest_wound_ = std::numeric_limits<double>::infinity();  // m, of all that came by command in this epoch
+  std::optional<FrameClock> checkpoint_clock_;                        // of checkpoint_every
+  bool checkpoint_due_ = false;                                       // by the clock
+  std::optional<dds::DecodedRequest> asked_checkpoint_;               // answered when it is written
+  bool saving_ = false;                                               // the keeper has a state
+  bool saving_for_request_ = false;
+  std::uint64_t saved_step_ = 0;  // of that state
+  double saved_time_ = 0.0;       // s
   bool faulted_ = false;
   std::string fault_text_;
   bool ended_ = false;

@@ -17,7 +17,7 @@ Status Simulation::startSwitching(const dds::SetEffect& set) {
   if (pending_load_) return {StatusCode::wrong_state, "a scene is being loaded: wait for its reply"};
   if (pending_switch_) return switchingNow();
   if (faulted_) return {StatusCode::wrong_state, "the solver has stopped on bad numbers: reset or load a scene first"};
-  pending_switch_.emplace();
+  pending_switch_.emplace().narrowest_wound = narrowest_wound_;
   loader_.start(
       {{},
        scene_,
@@ -35,6 +35,10 @@ void Simulation::finishSwitching() {
   Status outcome = finished->status();
   if (outcome && faulted_) outcome = {StatusCode::wrong_state, "the solver has stopped on bad numbers meanwhile"};
   if (outcome) outcome = takeOver(**finished);
+  // What a replay cannot see of the requests: who asked for the switch, or what was known then.
+  if (outcome && (!pending.request || pending.narrowest_wound != narrowest_wound_)) {
+    record(dds::Switched{pending.narrowest_wound, pending.request.has_value()});
+  }
   if (outcome && pending.request && pending.request->original) {
     record(dds::RequestTaken{std::move(pending.request->original), 0});
   }

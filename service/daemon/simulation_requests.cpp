@@ -7,6 +7,7 @@
 #include "service/daemon/wound_commands.h"
 #include "service/dds/command_limits.h"
 #include "service/dds/overloaded.h"
+#include "service/scene/feature_size.h"
 
 namespace bleedsim::daemon {
 namespace {
@@ -51,6 +52,10 @@ void Simulation::carryOut(dds::DecodedRequest& request, TimePoint now) {
   }
   if (done && !was_switching && pending_switch_) {
     pending_switch_->request = std::move(request);
+    return;
+  }
+  if (done && std::holds_alternative<dds::SaveCheckpoint>(request.action)) {
+    asked_checkpoint_ = std::move(request);
     return;
   }
   settle(request, done);
@@ -121,6 +126,14 @@ Result<sph::Applied> Simulation::perform(dds::DecodedRequest& request, TimePoint
           },
           [&](const dds::AcquireLease&) { return acquireLease(request, now); },
           [&](const dds::ReleaseLease&) { return releaseLease(request, now); },
+          [&](const dds::SaveCheckpoint&) -> Result<sph::Applied> {
+            if (Status possible = wantCheckpoint(); !possible) return possible;
+            return sph::Applied{};
+          },
+          [&](const dds::RestoreCheckpoint& restore) -> Result<sph::Applied> {
+            if (Status started = startRestoring(restore.name, now); !started) return started;
+            return sph::Applied{};
+          },
           [&](const dds::ShutdownSession&) -> Result<sph::Applied> {
             ended_ = true;
             return sph::Applied{};
@@ -135,7 +148,7 @@ Result<sph::Applied> Simulation::applyToWorld(const sph::Command& command) {
   const std::size_t wounds_before = world_->wounds().size();
   Result<sph::Applied> applied = world_->apply(command);
   if (applied) {
-    narrowest_wound_ = std::min(narrowest_wound_, patchWidthOf(command));
+    narrowest_wound_ = std::min(narrowest_wound_, scene::patchWidthOf(command));
     noteWoundName(command, applied->object_id);
   }
   if (world_->wounds().size() != wounds_before) showState();
@@ -197,7 +210,13 @@ void Simulation::answerLoad(PendingLoad& load, const Status& status) {
   reply.epoch = epoch_;
   reply.receive_stamp_ns = load.request.receive_stamp_ns;
   reply.reason = status.message();
-  if (!status) {
+  if (status && std::holds_alternative<dds::RestoreCheckpoint>(load.request.action)) {
+    reply.object_name = load.checkpoint;
+    reply.applied_step = world_->stepCount() + 1;
+  }
+  if (!status && std::holds_alternative<dds::RestoreCheckpoint>(load.request.action)) {
+    reply.code = dds::replyCode(status.code());
+  } else if (!status) {
     reply.code = load.reset || status.code() == StatusCode::internal ? dds::ReplyCode::failed : dds::ReplyCode::scene;
   }
   send(std::move(reply));
@@ -205,6 +224,10 @@ void Simulation::answerLoad(PendingLoad& load, const Status& status) {
 }
 
 void Simulation::answer(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id) {
+  send(replyTo(request, status, object_id));
+}
+
+dds::Reply Simulation::replyTo(const dds::DecodedRequest& request, const Status& status, std::uint32_t object_id) const {
   dds::Reply reply;
   reply.key = request.key;
   reply.code = dds::replyCode(status.code());
@@ -215,7 +238,7 @@ void Simulation::answer(const dds::DecodedRequest& request, const Status& status
   reply.reason = status.message();
   reply.receive_stamp_ns = request.receive_stamp_ns;
   if (const auto* ping = std::get_if<dds::Ping>(&request.action)) reply.client_stamp_ns = ping->client_stamp_ns;
-  send(std::move(reply));
+  return reply;
 }
 
 void Simulation::send(dds::Reply reply) {

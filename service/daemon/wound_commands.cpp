@@ -1,22 +1,14 @@
 #include "service/daemon/wound_commands.h"
 
-#include <limits>
 #include <utility>
 
 #include "service/scene/feature_size.h"
 
 namespace bleedsim::daemon {
 
-double patchWidthOf(const sph::Command& command) {
-  if (const auto* add = std::get_if<sph::AddWound>(&command)) return scene::patchWidth(add->wound.shape);
-  const auto* update = std::get_if<sph::UpdateWound>(&command);
-  if (update != nullptr && update->shape) return scene::patchWidth(*update->shape);
-  return std::numeric_limits<double>::infinity();
-}
-
 std::optional<WoundCommand> woundCommand(const dds::Action& action) {
   const auto with_width = [](sph::Command command) {
-    const double width = patchWidthOf(command);
+    const double width = scene::patchWidthOf(command);
     return WoundCommand{std::move(command), width};
   };
   if (const auto* add = std::get_if<sph::AddWound>(&action)) return with_width(*add);

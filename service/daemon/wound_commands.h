@@ -8,12 +8,9 @@
 
 namespace bleedsim::daemon {
 
-/// The narrowest place of the patch that a command brings, m; infinite without one.
-double patchWidthOf(const sph::Command& command);
-
 struct WoundCommand {
   sph::Command command;
-  double width = 0.0;  ///< patchWidthOf()
+  double width = 0.0;  ///< scene::patchWidthOf()
 };
 
 /// Nothing for an action that is not a wound's.

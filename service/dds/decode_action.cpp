@@ -6,6 +6,7 @@
 #include "service/dds/frame_blocks.h"
 #include "service/dds/value_check.h"
 #include "service/sph/world.h"
+#include "service/status/checkpoint_name.h"
 #include "service/status/wire_bool.h"
 
 namespace bleedsim::dds {
@@ -86,6 +87,28 @@ Result<LoadScene> decodeLoadScene(const bleed_v1_LoadScene& sample) {
                             : fmt::format("load_scene.text is longer than {} bytes: send a smaller scene", kMaxSceneBytes)};
 }
 
+/// Empty, or a name. The name of a file to be made of it: what it may hold is decided here, once more than anywhere else.
+Result<std::string> decodeName(std::string_view name) {
+  if (name.empty()) return std::string{};
+  if (Status valid = checkCheckpointName(name); !valid) return valid;
+  return std::string{name};
+}
+
+Result<Action> decodeSave(const bleed_v1_Checkpoint& sample) {
+  Result<std::string> name = decodeName(viewText(sample.name));
+  if (!name) return name.status();
+  if (isAutomaticCheckpoint(*name)) {
+    return Status{StatusCode::invalid_argument, "names that begin with 'auto-' are the service's own: use another one"};
+  }
+  return Action{SaveCheckpoint{std::move(*name)}};
+}
+
+Result<Action> decodeRestore(const bleed_v1_Checkpoint& sample) {
+  Result<std::string> name = decodeName(viewText(sample.name));
+  if (!name) return name.status();
+  return Action{RestoreCheckpoint{std::move(*name)}};
+}
+
 }  // namespace
 
 RequestKey requestKey(const bleed_v1_Request& sample) { return {{transport::toUuid(sample.client), sample.run}, sample.seq}; }
@@ -130,6 +153,10 @@ Result<Action> decodeAction(const bleed_v1_RequestBody& body) {
     }
     case bleed_v1_REQUEST_RELEASE:
       return Action{ReleaseLease{}};
+    case bleed_v1_REQUEST_CHECKPOINT:
+      return decodeSave(body._u.save_checkpoint);
+    case bleed_v1_REQUEST_RESTORE:
+      return decodeRestore(body._u.restore_checkpoint);
     default:
       return Status{StatusCode::unsupported,
                     fmt::format("request {} is not known to protocol {}.{}: use a newer bleedd or an older client", body._d,

@@ -119,6 +119,7 @@ const bleed_v1_FrameStats& FrameStatsEncoder::encode(const FrameSnapshot& snapsh
   sample_.max_speed_m_per_s = stats.max_speed;
   sample_.kinetic_energy_j = stats.kinetic_energy;
   sample_.state_hash = snapshot.state_hash;
+  sample_.journal_number = snapshot.journal_number;
   sample_.particles = stats.particles;
   sample_.injected = stats.injected;
   sample_.removed = stats.removed;

@@ -33,6 +33,7 @@ struct FrameSnapshot {
   std::array<InstrumentApplied, kMaxInstruments> instruments{};
   std::size_t instrument_count = 0;
   std::uint64_t state_hash = 0;
+  std::uint64_t journal_number = 0;  ///< entries of the epoch's journal that the state contains
   std::uint32_t epoch = 0;
   std::uint32_t steps_in_frame = 0;
   double real_time_factor = 0.0;

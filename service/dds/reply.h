@@ -61,6 +61,7 @@ struct Reply {
   std::int64_t client_stamp_ns = 0;
   std::int64_t receive_stamp_ns = 0;
   std::int64_t reply_stamp_ns = 0;  ///< of the first time it was sent
+  std::string object_name{};        ///< of the checkpoint written or restored
 };
 
 }  // namespace bleedsim::dds

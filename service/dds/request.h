@@ -63,10 +63,17 @@ struct AcquireLease {
   double seconds = 0.0;  ///< wall s
 };
 struct ReleaseLease {};
+/// Names are those of checkpoint::checkName, or empty: an automatic name, or the newest checkpoint.
+struct SaveCheckpoint {
+  std::string name;
+};
+struct RestoreCheckpoint {
+  std::string name;
+};
 
-using Action =
-    std::variant<Ping, sph::AddWound, sph::UpdateWound, sph::RemoveWound, PushForce, PauseSession, ResumeSession, ResetSession,
-                 StepSession, SetPace, SetOutput, LoadScene, ShutdownSession, SetEffect, AcquireLease, ReleaseLease>;
+using Action = std::variant<Ping, sph::AddWound, sph::UpdateWound, sph::RemoveWound, PushForce, PauseSession, ResumeSession,
+                            ResetSession, StepSession, SetPace, SetOutput, LoadScene, ShutdownSession, SetEffect, AcquireLease,
+                            ReleaseLease, SaveCheckpoint, RestoreCheckpoint>;
 
 /// A request sample that owns what it points to, for the journal. It leaves out the text of a scene to load, which may be a
 /// thousand times as large as anything else there: the scene topic has it.

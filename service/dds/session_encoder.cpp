@@ -54,6 +54,7 @@ const bleed_v1_Status& StatusEncoder::encode(const StatusReport& report, std::sp
   sample_.monotonic_stamp_ns = transport::monotonicNow();
   sample_.realtime_stamp_ns = transport::realtimeNow();
   encodeClients(clients);
+  encodeCheckpoints(report.checkpoints);
   const std::int64_t lease_left = std::max<std::int64_t>(report.lease_until_ns - sample_.monotonic_stamp_ns, 0);
   transport::copyUuid(lease_left > 0 ? report.lease_client : Uuid{}, sample_.lease_client);
   sample_.lease_left_s = static_cast<double>(lease_left) * 1e-9;
@@ -79,6 +80,23 @@ void StatusEncoder::encodeClients(std::span<const ClientActivity> clients) {
   }
   const auto length = static_cast<std::uint32_t>(count);
   sample_.clients = {length, length, clients_.data(), false};
+}
+
+void StatusEncoder::encodeCheckpoints(const std::vector<CheckpointInfo>& checkpoints) {
+  const std::size_t count = std::min(checkpoints.size(), checkpoints_.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const CheckpointInfo& from = checkpoints[i];
+    bleed_v1_CheckpointInfo& to = checkpoints_[i];
+    copyText(from.name, to.name);
+    to.epoch = from.epoch;
+    to.step = from.step;
+    to.sim_time_s = from.sim_time;
+    to.bytes = from.bytes;
+    to.realtime_stamp_ns = from.realtime_stamp_ns;
+    to.own = from.own ? 1 : 0;
+  }
+  const auto length = static_cast<std::uint32_t>(count);
+  sample_.checkpoints = {length, length, checkpoints_.data(), false};
 }
 
 SceneEncoder::SceneEncoder(const SessionIdentity& identity) {
@@ -143,6 +161,7 @@ bleed_v1_Reply encodeReply(const Reply& reply) {
   out.client_stamp_ns = reply.client_stamp_ns;
   out.receive_stamp_ns = reply.receive_stamp_ns;
   out.reply_stamp_ns = reply.reply_stamp_ns;
+  copyText(reply.object_name, out.object_name);
   return out;
 }
 
@@ -172,6 +191,21 @@ bleed_v1_Journal encodeJournal(const Uuid& session, const JournalEntry& entry) {
                           transport::copyUuid(ended.key.client, body._u.instrument_end.client);
                           body._u.instrument_end.tool = ended.key.tool;
                           body._u.instrument_end.reason = static_cast<std::uint32_t>(ended.reason);
+                        },
+                        [&body](const Restored& restored) {
+                          body._d = bleed_v1_JOURNAL_RESTORED;
+                          bleed_v1_Restored& to = body._u.restored;
+                          transport::copyUuid(restored.session, to.session);
+                          to.epoch = restored.epoch;
+                          to.step = restored.step;
+                          to.number = restored.number;
+                          to.state_hash = restored.state_hash;
+                          copyText(restored.name, to.name);
+                        },
+                        [&body](const Switched& switched) {
+                          body._d = bleed_v1_JOURNAL_SWITCHED;
+                          body._u.switched.narrowest_wound_m = switched.narrowest_wound;
+                          body._u.switched.by_request = switched.by_request ? 1 : 0;
                         }},
              entry.input);
   return out;

@@ -29,10 +29,12 @@ class StatusEncoder {
 
  private:
   void encodeClients(std::span<const ClientActivity> clients);
+  void encodeCheckpoints(const std::vector<CheckpointInfo>& checkpoints);
 
   bleed_v1_Status sample_{};
   std::vector<bleed_v1_Counter> counters_;
   std::array<bleed_v1_ClientActivity, kMaxClients> clients_{};
+  std::array<bleed_v1_CheckpointInfo, kMaxCheckpoints> checkpoints_{};
 };
 
 class SceneEncoder {

@@ -48,6 +48,19 @@ struct ClientActivity {
   std::int64_t last_heard_ns = 0;  ///< CLOCK_MONOTONIC
 };
 
+inline constexpr std::size_t kMaxCheckpoints = 32;  ///< on the status topic
+
+/// A state that the session can return to; the fields of bleed_v1_CheckpointInfo.
+struct CheckpointInfo {
+  std::string name;
+  std::uint32_t epoch = 0;
+  std::uint64_t step = 0;
+  double sim_time = 0.0;  ///< s
+  std::uint64_t bytes = 0;
+  std::int64_t realtime_stamp_ns = 0;
+  bool own = false;  ///< of this session
+};
+
 struct StatusReport {
   SessionState state = SessionState::loading;
   std::uint32_t epoch = 0;
@@ -62,9 +75,10 @@ struct StatusReport {
   std::string text;
   /// The solver's, as of the last frame, by sph::Counter.
   std::array<std::uint64_t, static_cast<std::size_t>(sph::Counter::count)> faults{};
-  std::size_t full_frame_bytes = 0;  ///< payload of a frame at capacity; not published
-  Uuid lease_client{};               ///< of the lease that lasts until lease_until_ns
-  std::int64_t lease_until_ns = 0;   ///< CLOCK_MONOTONIC
+  std::size_t full_frame_bytes = 0;         ///< payload of a frame at capacity; not published
+  Uuid lease_client{};                      ///< of the lease that lasts until lease_until_ns
+  std::int64_t lease_until_ns = 0;          ///< CLOCK_MONOTONIC
+  std::vector<CheckpointInfo> checkpoints;  ///< the newest first
 };
 
 /// What late joiners need to read frames. One per epoch and switched effect.

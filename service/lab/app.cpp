@@ -8,7 +8,8 @@ namespace {
 
 constexpr const char* kFooter =
     "Progress and messages go to stderr, results to stdout; with --json stdout holds one JSON object and nothing else.\n"
-    "Exit codes: 0 done, 1 the solver failed or a file cannot be written, 2 wrong command line or scene.";
+    "Exit codes: 0 done, 1 the solver failed or a file cannot be written, 2 wrong command line or scene,\n"
+    "3 'replay --verify' found a difference, or that the recording cannot be compared.";
 
 /// The commands that were possible where the command line ended; empty if it was complete.
 std::string commandsOf(const CLI::App& app) {
@@ -37,6 +38,7 @@ int runLab(int argc, const char* const* argv) {
   addPaperCommand(app, context);
   addHardCasesCommand(app, context);
   addTortureCommand(app, context);
+  addReplayCommand(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -14,8 +14,9 @@ namespace bleedsim::lab {
 /// Exit codes, documented in --help.
 enum class ExitCode : int {
   done = 0,
-  failed = 1,  ///< the solver refused or failed, or a file cannot be written
-  usage = 2,   ///< wrong command line or scene
+  failed = 1,   ///< the solver refused or failed, or a file cannot be written
+  usage = 2,    ///< wrong command line or scene
+  differs = 3,  ///< a recording that was verified is not what its replay gives, or cannot be compared with it
 };
 
 struct Context {
@@ -28,6 +29,7 @@ ExitCode fail(ExitCode code, const std::string& message);
 void addEffectsCommand(CLI::App& app, Context& context);
 void addHardCasesCommand(CLI::App& app, Context& context);
 void addPaperCommand(CLI::App& app, Context& context);
+void addReplayCommand(CLI::App& app, Context& context);
 void addTortureCommand(CLI::App& app, Context& context);
 
 int runLab(int argc, const char* const* argv);

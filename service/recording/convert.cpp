@@ -96,6 +96,7 @@ void counters(ToMessage& to, const char* name, const Sequence& in, Repeated& out
       applied.set_step(in.step);
     }
   }
+  out.set_journal_number(sample.journal_number);
   return to.status();
 }
 
@@ -141,6 +142,19 @@ void counters(ToMessage& to, const char* name, const Sequence& in, Repeated& out
   }
   to.uuid(sample.lease_client, out.mutable_lease_client());
   out.set_lease_left_s(sample.lease_left_s);
+  if (to.has("status.checkpoints", sample.checkpoints)) {
+    for (std::uint32_t i = 0; i < sample.checkpoints._length; ++i) {
+      const bleed_v1_CheckpointInfo& from = sample.checkpoints._buffer[i];
+      CheckpointInfo& checkpoint = *out.add_checkpoints();
+      to.text("status.checkpoints.name", from.name, checkpoint.mutable_name());
+      checkpoint.set_epoch(from.epoch);
+      checkpoint.set_step(from.step);
+      checkpoint.set_sim_time_s(from.sim_time_s);
+      checkpoint.set_bytes(from.bytes);
+      checkpoint.set_realtime_stamp_ns(from.realtime_stamp_ns);
+      checkpoint.set_own(from.own != 0);
+    }
+  }
   return to.status();
 }
 
@@ -223,6 +237,20 @@ void counters(ToMessage& to, const char* name, const Sequence& in, Repeated& out
       break;
     case bleed_v1_JOURNAL_DECISION:
       to.text("journal.decision", body.decision, out.mutable_decision());
+      break;
+    case bleed_v1_JOURNAL_RESTORED: {
+      Restored& restored = *out.mutable_restored();
+      to.uuid(body.restored.session, restored.mutable_session());
+      restored.set_epoch(body.restored.epoch);
+      restored.set_step(body.restored.step);
+      restored.set_number(body.restored.number);
+      restored.set_state_hash(body.restored.state_hash);
+      to.text("restored.name", body.restored.name, restored.mutable_name());
+      break;
+    }
+    case bleed_v1_JOURNAL_SWITCHED:
+      out.mutable_switched()->set_narrowest_wound_m(body.switched.narrowest_wound_m);
+      out.mutable_switched()->set_by_request(body.switched.by_request != 0);
       break;
     default:
       to.fail(StatusCode::unsupported,

@@ -18,6 +18,7 @@ constexpr int kMaxCounters = 64;
 constexpr int kMaxInstruments = 64;
 constexpr int kMaxEffects = 64;
 constexpr int kMaxClients = 32;
+constexpr int kMaxCheckpoints = 32;
 
 template <class T>
 SamplePtr<T> makeSample() {
@@ -130,6 +131,7 @@ Result<SamplePtr<bleed_v1_FrameStats>> fromRecording(const FrameStats& message) 
       applied.step = in.step();
     }
   }
+  out->journal_number = message.journal_number();
   return finish(to, std::move(out));
 }
 
@@ -176,6 +178,19 @@ Result<SamplePtr<bleed_v1_Status>> fromRecording(const recording::Status& messag
   // Recordings of before protocol 1.2 have none.
   if (!message.lease_client().empty()) to.uuid("status.lease_client", message.lease_client(), out->lease_client);
   out->lease_left_s = message.lease_left_s();
+  if (to.reserve("status.checkpoints", message.checkpoints_size(), kMaxCheckpoints, out->checkpoints)) {
+    for (int i = 0; i < message.checkpoints_size(); ++i) {
+      const CheckpointInfo& from = message.checkpoints(i);
+      bleed_v1_CheckpointInfo& checkpoint = out->checkpoints._buffer[i];
+      to.text("status.checkpoints.name", from.name(), checkpoint.name);
+      checkpoint.epoch = from.epoch();
+      checkpoint.step = from.step();
+      checkpoint.sim_time_s = from.sim_time_s();
+      checkpoint.bytes = from.bytes();
+      checkpoint.realtime_stamp_ns = from.realtime_stamp_ns();
+      checkpoint.own = from.own() ? 1 : 0;
+    }
+  }
   return finish(to, std::move(out));
 }
 
@@ -257,6 +272,20 @@ Result<SamplePtr<bleed_v1_Journal>> fromRecording(const Journal& message) {
     case Journal::kDecision:
       out->body._d = bleed_v1_JOURNAL_DECISION;
       to.text("journal.decision", message.decision(), body.decision);
+      break;
+    case Journal::kRestored:
+      out->body._d = bleed_v1_JOURNAL_RESTORED;
+      to.uuid("restored.session", message.restored().session(), body.restored.session);
+      body.restored.epoch = message.restored().epoch();
+      body.restored.step = message.restored().step();
+      body.restored.number = message.restored().number();
+      body.restored.state_hash = message.restored().state_hash();
+      to.text("restored.name", message.restored().name(), body.restored.name);
+      break;
+    case Journal::kSwitched:
+      out->body._d = bleed_v1_JOURNAL_SWITCHED;
+      body.switched.narrowest_wound_m = message.switched().narrowest_wound_m();
+      body.switched.by_request = message.switched().by_request() ? 1 : 0;
       break;
     case Journal::BODY_NOT_SET:
       to.fail("journal.body is missing");

@@ -196,7 +196,10 @@ RecordingWriter::~RecordingWriter() {
 
 ::bleedsim::Status RecordingWriter::append(const bleed_v1_FrameStats& sample, std::uint64_t log_time_ns) {
   ::bleedsim::Status status = impl_->store(Topic::frame_stats, sample, impl_->stats, log_time_ns, 0);
-  if (status) ++impl_->counts.frame_stats;
+  if (status) {
+    ++impl_->counts.frame_stats;
+    impl_->replay.addState(keyOf(sample.session), sample.epoch, sample.journal_number);
+  }
   return status;
 }
 
@@ -230,6 +233,10 @@ RecordingWriter::~RecordingWriter() {
   if (status) {
     ++impl_->counts.journal_entries;
     impl_->replay.addJournal(keyOf(sample.session), sample.epoch, sample.number);
+    if (message.has_restored()) {
+      const Restored& source = message.restored();
+      impl_->replay.addRestored(keyOf(sample.session), sample.epoch, source.session(), source.epoch(), source.number());
+    }
     impl_->counts.journal_gaps = impl_->replay.journalGaps();
   } else {
     impl_->replay.loseJournal(keyOf(sample.session), sample.epoch);

@@ -112,6 +112,12 @@ void requestToMessage(ToMessage& to, const bleed_v1_Request& in, Request& out) {
     case bleed_v1_REQUEST_RELEASE:
       out.mutable_release();
       break;
+    case bleed_v1_REQUEST_CHECKPOINT:
+      to.text("save_checkpoint.name", body.save_checkpoint.name, out.mutable_save_checkpoint()->mutable_name());
+      break;
+    case bleed_v1_REQUEST_RESTORE:
+      to.text("restore_checkpoint.name", body.restore_checkpoint.name, out.mutable_restore_checkpoint()->mutable_name());
+      break;
     default:
       to.fail(StatusCode::unsupported,
               fmt::format("request kind {} is not known to this version; use a newer client", in.body._d));
@@ -191,6 +197,14 @@ void requestToSample(ToSample& to, const Request& in, bleed_v1_Request& out) {
       break;
     case Request::kRelease:
       out.body._d = bleed_v1_REQUEST_RELEASE;
+      break;
+    case Request::kSaveCheckpoint:
+      out.body._d = bleed_v1_REQUEST_CHECKPOINT;
+      to.text("save_checkpoint.name", in.save_checkpoint().name(), body.save_checkpoint.name);
+      break;
+    case Request::kRestoreCheckpoint:
+      out.body._d = bleed_v1_REQUEST_RESTORE;
+      to.text("restore_checkpoint.name", in.restore_checkpoint().name(), body.restore_checkpoint.name);
       break;
     case Request::BODY_NOT_SET:
       to.fail("request.body is missing");

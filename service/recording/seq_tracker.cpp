@@ -1,5 +1,6 @@
 #include "service/recording/seq_tracker.h"
 
+#include <algorithm>
 #include <fmt/core.h>
 
 namespace bleedsim::recording {
@@ -57,6 +58,23 @@ void ReplayCheck::addJournal(const SessionKey& session, std::uint32_t epoch, std
   journal.last = number;
 }
 
+void ReplayCheck::addState(const SessionKey& session, std::uint32_t epoch, std::uint64_t journal_number) {
+  const Epoch key{session, epoch};
+  if (journal_number == 0) return;
+  if (journals_.size() >= kMaxEpochs && !journals_.contains(key)) {
+    overflow_ = true;
+    return;
+  }
+  Journal& journal = journals_[key];
+  journal.needed = std::max(journal.needed, journal_number);
+}
+
+void ReplayCheck::addRestored(const SessionKey& session, std::uint32_t epoch, const SessionKey& source_session,
+                              std::uint32_t source_epoch, std::uint64_t journal_number) {
+  if (sources_.size() < kMaxEpochs) sources_[{session, epoch}] = {source_session, source_epoch};
+  if (source_session == session) addState(session, source_epoch, journal_number);
+}
+
 void ReplayCheck::loseJournal(const SessionKey& session, std::uint32_t epoch) {
   // The next entry's number shows the loss again, so only the epoch is marked here.
   if (journals_.size() >= kMaxEpochs) {
@@ -80,11 +98,26 @@ std::string ReplayCheck::reason() const {
   for (const Epoch& epoch : frames_) {
     if (!hasScene(epoch)) return fmt::format("the scene of epoch {} is missing", epoch.second);
     const auto journal = journals_.find(epoch);
-    if (journal != journals_.end() && journal->second.missing > 0) {
-      return fmt::format("{} journal entries of epoch {} are missing", journal->second.missing, epoch.second);
+    if (journal == journals_.end()) continue;
+    if (std::string reason = journalReason(epoch.second, journal->second); !reason.empty()) return reason;
+  }
+  for (const auto& [epoch, source] : sources_) {
+    if (!frames_.contains(epoch)) continue;
+    if (source.first != epoch.first) {
+      return fmt::format("epoch {} begins with a checkpoint of another session, which is not in the file", epoch.second);
     }
+    if (!hasScene(source)) return fmt::format("the scene of epoch {} is missing", source.second);
+    const auto journal = journals_.find(source);
+    if (journal == journals_.end()) continue;
+    if (std::string reason = journalReason(source.second, journal->second); !reason.empty()) return reason;
   }
   return {};
+}
+
+std::string ReplayCheck::journalReason(std::uint32_t epoch, const Journal& journal) const {
+  const std::uint64_t after = journal.needed > journal.last ? journal.needed - journal.last : 0;
+  if (journal.missing + after == 0) return {};
+  return fmt::format("{} journal entries of epoch {} are missing", journal.missing + after, epoch);
 }
 
 }  // namespace bleedsim::recording

@@ -43,7 +43,8 @@ class FrameTracker {
   std::vector<Range> ranges_;
 };
 
-/// Whether a recording can be played again: one session, its scene, and the journal from number 1 of each epoch with frames.
+/// Whether a recording can be played again: one session, its scene, and the journal from number 1 to the last entry that a state
+/// contains, of each epoch with frames and of each whose state another one goes on from.
 class ReplayCheck {
  public:
   static constexpr std::size_t kMaxEpochs = 100'000;
@@ -51,6 +52,11 @@ class ReplayCheck {
   void addFrame(const SessionKey& session, std::uint32_t epoch);
   void addScene(const SessionKey& session, std::uint32_t epoch);
   void addJournal(const SessionKey& session, std::uint32_t epoch, std::uint64_t number);
+  /// A state of that epoch contains so many journal entries.
+  void addState(const SessionKey& session, std::uint32_t epoch, std::uint64_t journal_number);
+  /// The epoch goes on from a state of the source.
+  void addRestored(const SessionKey& session, std::uint32_t epoch, const SessionKey& source_session, std::uint32_t source_epoch,
+                   std::uint64_t journal_number);
   /// An entry of that epoch could not be stored.
   void loseJournal(const SessionKey& session, std::uint32_t epoch);
 
@@ -64,13 +70,16 @@ class ReplayCheck {
   struct Journal {
     std::uint64_t last = 0;
     std::uint64_t missing = 0;
+    std::uint64_t needed = 0;  // entries that a state contains
   };
 
   bool hasScene(const Epoch& epoch) const;
+  std::string journalReason(std::uint32_t epoch, const Journal& journal) const;
 
   std::set<Epoch> frames_;
   std::set<Epoch> scenes_;
   std::map<Epoch, Journal> journals_;
+  std::map<Epoch, Epoch> sources_;
   std::uint64_t journal_gaps_ = 0;
   bool overflow_ = false;
 };

@@ -52,6 +52,7 @@ namespace bleedsim::recording {
   for (const Counter& counter : stats_.fault_counters()) out_.fault_counters.emplace_back(counter.name(), counter.value());
   real_time_factors_ += stats_.real_time_factor();
   out_.max_behind_s = std::max(out_.max_behind_s, stats_.behind_s());
+  replay_.addState(stats_.session(), stats_.epoch(), stats_.journal_number());
   ledger_.push_back({Epoch{stats_.session(), stats_.epoch()}, {stats_.seq(), stats_.emitted_ml()}});
   return {};
 }
@@ -77,6 +78,10 @@ namespace bleedsim::recording {
   if (::bleedsim::Status status = decode(message, journal); !status) return status;
   ++out_.journal_entries;
   replay_.addJournal(journal.session(), journal.epoch(), journal.number());
+  if (journal.has_restored()) {
+    const Restored& source = journal.restored();
+    replay_.addRestored(journal.session(), journal.epoch(), source.session(), source.epoch(), source.number());
+  }
   return {};
 }
 

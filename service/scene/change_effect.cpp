@@ -85,14 +85,18 @@ Result<SceneDescription> changeEffect(const SceneDescription& scene, const Effec
   return changed;
 }
 
-Result<SceneDescription> decideAgain(const SceneDescription& scene, const Session& session) {
+Result<SceneDescription> reopenScene(std::string_view text, SettingsMemory former_settings, const Session& session) {
   Scene message;
   ProblemList problems;
-  if (!readText(scene.normalized_text, message, problems)) return problems.firstToStatus();
+  if (!readText(text, message, problems)) return problems.firstToStatus();
   Result<SceneDescription> decided = finishScene(message, problems, session);
   if (!decided) return problems.firstToStatus();
-  decided->former_settings = scene.former_settings;
+  decided->former_settings = std::move(former_settings);
   return decided;
+}
+
+Result<SceneDescription> decideAgain(const SceneDescription& scene, const Session& session) {
+  return reopenScene(scene.normalized_text, scene.former_settings, session);
 }
 
 }  // namespace bleedsim::scene

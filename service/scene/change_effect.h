@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "service/scene/auto_effects.h"
 #include "service/scene/scene.h"
@@ -21,6 +22,10 @@ struct EffectChange {
 /// takes what depends on it alone: its output attribute, the viscosities of fluid blocks. It also leaves effects.auto: who
 /// switches by hand has decided.
 Result<SceneDescription> changeEffect(const SceneDescription& scene, const EffectChange& change, const Session& session);
+
+/// A scene that a session ran, from the text that acted then, its memory of settings and what the session knew. invalid_argument:
+/// the first problem of the text.
+Result<SceneDescription> reopenScene(std::string_view text, SettingsMemory former_settings, const Session& session);
 
 /// The scene with the decisions of effects.auto taken anew, because the session knows more than it did.
 Result<SceneDescription> decideAgain(const SceneDescription& scene, const Session& session);

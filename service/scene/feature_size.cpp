@@ -177,4 +177,11 @@ struct PatchWidth {
 
 double patchWidth(const sph::PatchShape& shape) { return std::visit(PatchWidth{}, shape); }
 
+double patchWidthOf(const sph::Command& command) {
+  if (const auto* add = std::get_if<sph::AddWound>(&command)) return patchWidth(add->wound.shape);
+  const auto* update = std::get_if<sph::UpdateWound>(&command);
+  if (update != nullptr && update->shape) return patchWidth(*update->shape);
+  return kInfinity;
+}
+
 }  // namespace bleedsim::scene

@@ -18,6 +18,7 @@ void decide(const Scene& message, const std::optional<Session>& session, SceneDe
   std::optional<double> horizon;
   if (message.has_horizon_s()) horizon = message.horizon_s();
   const auto& names = message.effects().auto_();
+  if (session) description.narrowest_wound = session->narrowest_wound;
   const double reach = description.world.effects.surface_tension ? tensionReach(description.world) : 0.0;
   for (const AutoDecision& decision : applyAuto({names.begin(), names.end()}, horizon, session, description.world)) {
     description.decisions.push_back(

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,6 +39,8 @@ struct SceneDescription {
   std::vector<std::string> warnings;   ///< what runs but is known to go wrong, each with what to do
   /// effects.auto left surface_tension out: a wound as narrow as this calls for it, m. 0: it did not.
   double tension_below = 0.0;
+  /// The narrowest wound by command that the decisions of effects.auto knew of, m; infinite: none.
+  double narrowest_wound = std::numeric_limits<double>::infinity();
   SettingsMemory former_settings;  ///< of effects that were switched while the scene ran, see changeEffect()
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -158,6 +159,19 @@ class World {
   /// stepped afterwards. invalid_argument: the descriptions differ in more than effects; capacity: more force sources than
   /// this world has; both leave both worlds as they are.
   virtual Status adopt(World& from) = 0;
+
+  /// Bytes that saveState() needs now.
+  virtual std::size_t stateBytes() const = 0;
+  /// Writes the complete state and returns how many bytes it takes; 0 if `room` is too small or the world is faulted. Allocates
+  /// nothing.
+  virtual std::size_t saveState(std::span<std::byte> room) const = 0;
+  /// Takes the state that a world of the same description, precision and speed of sound has saved, and goes on bit for bit as
+  /// that one did, on any number of threads. invalid_argument: it is another world's; data_loss: it is damaged. The message says
+  /// what is wrong, and this world stays as it is. Allocates: not for the simulation thread.
+  virtual Status restoreState(std::span<const std::byte> state) = 0;
+
+  /// Empty: the wound has none, or there is no such wound.
+  virtual std::string_view woundName(std::uint32_t id) const = 0;
 
   virtual const WorldDescription& description() const = 0;
   virtual SimdTarget simdTarget() const = 0;

@@ -61,6 +61,10 @@ class WorldCore final : public World {
   void copyFrame(FrameBuffer& frame, std::uint32_t attributes) const override;
   std::uint64_t stateHash() const override;
   Status adopt(World& world) override;
+  std::size_t stateBytes() const override;
+  std::size_t saveState(std::span<std::byte> room) const override;
+  Status restoreState(std::span<const std::byte> state) override;
+  std::string_view woundName(std::uint32_t id) const override;
   const WorldDescription& description() const override { return description_; }
   SimdTarget simdTarget() const override { return target_; }
   double speedOfSound() const override { return speed_of_sound_; }
@@ -93,6 +97,14 @@ class WorldCore final : public World {
   const Real* shearRates() const { return shear_rate_ ? shear_rate_->data() : nullptr; }
   void makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet);
   void chooseShares();
+  // world_state.cpp
+  struct SavedScalars;
+  SavedScalars scalars() const;
+  void save(StateWriter& out) const;
+  Status checkScalars(const SavedScalars& saved) const;
+  Status checkParticles(const SavedScalars& saved, const WoundSet& wounds) const;
+  Status checkParticle(std::uint32_t i, const SavedScalars& saved, const WoundSet& wounds) const;
+  Status readForces(StateReader& in, std::vector<SetForce>& sources) const;
   void withdraw(const Throat& throat);
   std::uint64_t& counter(Counter c) { return counters_[static_cast<std::size_t>(c)]; }
 

@@ -11,6 +11,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "service/checkpoint/state_file.h"
+#include "service/sph/state_bytes.h"
+#include "service/sph/wound/wound_set.h"
 #include "tests/unit/dds/samples.h"
 #include "tests/unit/recording/random_samples.h"
 
@@ -86,6 +89,9 @@ void writeRequests(const Folder& folder) {
   effect.enabled = true;
   write("effect", bleed_v1_REQUEST_EFFECT, Bytes{}.add(effect));
   write("acquire", bleed_v1_REQUEST_ACQUIRE, Bytes{}.add(bleed_v1_Lease{60.0}));
+  bleed_v1_Checkpoint named{};
+  dds::copyText("before_2", named.name);
+  write("checkpoint", bleed_v1_REQUEST_CHECKPOINT, Bytes{}.add(named));
   write("unknown", 255, Bytes{}.add(std::uint32_t{9999}));
 }
 
@@ -181,6 +187,45 @@ void writeSamples(const Folder& folder) {
   journal("decision", bleed_v1_JOURNAL_DECISION, Bytes{}.add(std::string_view{"wetting: off"}));
 }
 
+void writeCheckpoints(const Folder& folder) {
+  checkpoint::Head head;
+  head.name = "seed";
+  head.build_id = "1.0.0";
+  head.simd_target = "avx2";
+  head.precision = "float32";
+  head.scene_text = head.loaded_text = "name: 'seed'";
+  head.former_settings = {{"viscosity", "viscosity_pa_s: 0.01"}};
+  head.mark.speed_of_sound = 5.0;
+  head.mark.tools[0].tool = 2;
+  head.mark.tool_count = 1;
+  const std::array<std::byte, 5> state{};
+  const std::string file = checkpoint::encodeCheckpoint(head, state);
+  folder.write("checkpoint", "whole", Bytes{}.add(std::uint8_t{0}).add(std::string_view{file}).text());
+  folder.write("checkpoint", "head",
+               Bytes{}.add(std::uint8_t{1}).add(std::string_view{file}.substr(40, file.size() - 45)).text());
+
+  sph::WorldDescription description;
+  description.spacing = 0.002;
+  description.max_wounds = 4;
+  sph::WoundSet wounds{description, 5.0};
+  sph::WoundDescription wound;
+  wound.name = "cut";
+  wound.shape = sph::PolygonPatch{{{-0.003, -0.003}, {0.003, -0.003}, {0.0, 0.004}}};
+  wound.drive = sph::PressureDriveSettings{50.0, 0.6};
+  static_cast<void>(wounds.add(wound));
+  wound.name = "other";
+  wound.position.x() = 0.02;
+  wound.shape = sph::PolylinePatch{{{-0.003, 0.0}, {0.003, 0.0}}, 0.002};
+  wound.drive = sph::FlowDrive{1e-6};
+  static_cast<void>(wounds.add(wound));
+  for (int k = 0; k < 50; ++k) wounds.advance(1e-4, [k](const sph::InletSpawn&) { return k % 3 != 0; });
+  std::array<std::byte, 65536> room{};
+  sph::StateWriter out{room};
+  wounds.save(out);
+  folder.write("checkpoint", "wounds",
+               Bytes{}.add(std::uint8_t{2}).add(std::string_view{reinterpret_cast<const char*>(room.data()), out.used()}).text());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -193,6 +238,7 @@ int main(int argc, char** argv) {
   writeFrames(folder);
   writeRecordings(folder);
   writeSamples(folder);
+  writeCheckpoints(folder);
   folder.write("instrument", "good", Bytes{}.add(dds::instrumentSample()).text());
   folder.write("effect", "viscosity",
                Bytes{}.add(std::uint8_t{2}).add(std::string_view{"viscosity_pa_s: 0.01 solve: EXPLICIT"}).text());

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,11 @@ class AppliedForce {
   bool canHold(const AppliedForce& other) const { return other.sources_.size() <= max_sources_; }
   /// Takes over the other's sources; requires canHold().
   void adopt(const AppliedForce& other) { sources_.assign(other.sources_.begin(), other.sources_.end()); }
+
+  /// In the order in which they are summed up.
+  std::span<const SetForce> sources() const { return sources_; }
+  std::uint32_t maxSources() const { return max_sources_; }
+  void clear() { sources_.clear(); }
 
  private:
   bool addOne(const SetForce& source, const CellGrid<Real>& grid, const Particles<Real>& p, Real* acceleration) const {

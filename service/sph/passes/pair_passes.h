@@ -217,6 +217,7 @@ class PairPasses {
   /// What exchangeAccelerations() put aside, or the next accelerations' room until they are computed.
   Real* formerAcceleration() { return former_acceleration_.data(); }
   const Real* density() const { return density_.data(); }
+  Real* density() { return density_.data(); }
   void moveDensity(std::size_t to, std::size_t from) { density_[to] = density_[from]; }
   /// The contact distance of repulsion over its own, 0 to 1. Contacts stay as stiff as they are: force over distance goes with
   /// the strength over the distance's cube.

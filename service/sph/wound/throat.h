@@ -13,8 +13,12 @@
 #include "service/sph/wound/patch_geometry.h"
 #include "service/sph/wound/patch_sites.h"
 #include "service/sph/wound/site_grid.h"
+#include "service/status/status.h"
 
 namespace bleedsim::sph {
+
+class StateReader;
+class StateWriter;
 
 enum class InletPhase {
   throat,    ///< z < 0: behind the patch, unseen
@@ -87,6 +91,13 @@ class Throat {
   void forEachJustEmitted(Visit&& visit) const {
     for (std::uint64_t j = crossed_; j > 0 && heightOf(j - 1) < 2.0 * release_height_; --j) visit(stateOf(j - 1).position);
   }
+
+  /// Where the column is and which particles exist; the rest follows from how the throat was opened.
+  void save(StateWriter& out) const;
+  /// On a throat that was opened for the same patch: data_loss says what is wrong, and this one is then of no more use.
+  Status restore(StateReader& in);
+  /// Whether kinematics() may be asked of this tag.
+  bool mayDrive(const InletTag& tag) const;
 
   /// Of particles now behind the patch: those that vanish when the wound moves or closes.
   std::uint64_t unseen() const;

@@ -92,6 +92,14 @@ class WoundSet {
   double commandedVolume() const { return commanded_ * particle_volume_; }                   ///< m^3, integral of the flow
   double deepestThroat() const;  ///< m behind the patch, of all wounds
 
+  /// All wounds, their throats and the ledger. Allocates nothing.
+  void save(StateWriter& out) const;
+  /// Of a set for the same description and speed of sound, in place of all wounds. data_loss says what is wrong, and this set is
+  /// then of no more use.
+  Status restore(StateReader& in);
+  /// Whether kinematics() may be asked of this tag.
+  bool mayDrive(std::uint32_t tag) const;
+
  private:
   struct Wound {
     std::uint32_t id = 0;
@@ -129,6 +137,7 @@ class WoundSet {
   void book(std::size_t index, const InletStep& step, double dt);
   void withdrawThroat(std::size_t index, const WithdrawThroat& withdraw);
   void refreshReach();
+  Status restoreOne(StateReader& in, std::vector<bool>& taken);
 
   WoundRules rules_;
   double spacing_ = 0.0;

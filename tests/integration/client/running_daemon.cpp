@@ -14,9 +14,11 @@ void isolate() {
 }
 
 std::unique_ptr<RunningDaemon> RunningDaemon::start(const std::string& program, const std::string& scene,
-                                                    const std::string& session, std::uint32_t domain) {
-  std::unique_ptr<RunningDaemon> daemon{
-      new RunningDaemon{{program, "--scene", scene, "--session", session, "--domain", std::to_string(domain)}}};
+                                                    const std::string& session, std::uint32_t domain,
+                                                    const std::vector<std::string>& more) {
+  std::vector<std::string> command{program, "--scene", scene, "--session", session, "--domain", std::to_string(domain)};
+  command.insert(command.end(), more.begin(), more.end());
+  std::unique_ptr<RunningDaemon> daemon{new RunningDaemon{command}};
   Result<client::Client> here = client::Client::create({.domain = domain});
   if (!here) {
     ADD_FAILURE() << here.status().message();

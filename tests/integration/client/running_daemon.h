@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bleedsim/client.h"
 #include "tests/support/child_process.h"
@@ -15,12 +16,14 @@ void isolate();
 
 class RunningDaemon {
  public:
-  /// Starts `program` on the scene and waits until its session runs. Null: it did not; the test has failed.
+  /// Starts `program` on the scene, with `more` arguments, and waits until its session runs. Null: it did not; the test has
+  /// failed.
   static std::unique_ptr<RunningDaemon> start(const std::string& program, const std::string& scene, const std::string& session,
-                                              std::uint32_t domain);
+                                              std::uint32_t domain, const std::vector<std::string>& more = {});
 
   /// The session as a client of this process sees it.
   client::Session& session() { return *session_; }
+  client::Client& client() { return *client_; }
   test::ChildProcess& process() { return process_; }
 
  private:

@@ -30,6 +30,10 @@ class FaultingWorld final : public sph::World {
   void copyFrame(sph::FrameBuffer& frame, std::uint32_t attributes) const override { real_->copyFrame(frame, attributes); }
   std::uint64_t stateHash() const override { return real_->stateHash(); }
   Status adopt(sph::World& from) override { return real_->adopt(from); }
+  std::size_t stateBytes() const override { return real_->stateBytes(); }
+  std::size_t saveState(std::span<std::byte> room) const override { return real_->saveState(room); }
+  Status restoreState(std::span<const std::byte> state) override { return real_->restoreState(state); }
+  std::string_view woundName(std::uint32_t id) const override { return real_->woundName(id); }
   sph::MemoryUse memory() const override { return real_->memory(); }
   sph::RunningCode runningCode() const override { return real_->runningCode(); }
   const sph::WorldDescription& description() const override { return real_->description(); }

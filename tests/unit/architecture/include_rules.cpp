@@ -21,18 +21,18 @@ const std::vector<LibraryRule>& libraryRules() {
       {"Eigen/", {"sph", "scene", "dds", "daemon", "picture"}},
       // recording converts IDL samples, whose sequences and strings ddsc allocates; it opens no entity.
       {"dds/", {"transport", "recording"}},
-      {"google/protobuf/", {"scene", "recording"}},
+      {"google/protobuf/", {"scene", "recording", "checkpoint"}},
       {"spdlog/", {"daemon"}},
       {"systemd/", {"daemon"}},
       {"CLI/", {"daemon", "client", "lab"}},
       {"nlohmann/", {"lab"}},
-      {"fmt/", {"scene", "transport", "dds", "recording", "daemon", "client", "lab"}},
+      {"fmt/", {"build", "checkpoint", "replay", "scene", "transport", "dds", "recording", "daemon", "client", "lab"}},
       {"lz4", {"recording"}},
       {"zstd", {"recording"}},
-      {"zlib", {"recording", "client"}},
+      {"zlib", {"recording", "checkpoint", "client"}},
       {"png", {"picture"}},
       {"net/", {"transport"}},
-      {"sys/", {"transport", "daemon", "recording", "client", "picture"}},
+      {"sys/", {"checkpoint", "transport", "daemon", "recording", "client", "picture"}},
   };
   return kRules;
 }

@@ -1,6 +1,8 @@
 #include "tests/unit/daemon/fake_world.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <utility>
 
 namespace bleedsim::daemon {
@@ -42,6 +44,26 @@ FakeWorld::FakeWorld(sph::WorldDescription description, std::shared_ptr<FakeLog>
 Status FakeWorld::checkWound(const sph::Command&) const {
   return log_->refuse_wounds ? Status{StatusCode::invalid_argument, "the fake world bears no wounds"} : Status{};
 }
+
+// The number of steps and of wounds is all that a fake world has.
+std::size_t FakeWorld::saveState(std::span<std::byte> room) const {
+  const std::array<std::uint64_t, 2> state{steps_, wounds_.size()};
+  if (room.size() < sizeof state || faulted_) return 0;
+  std::memcpy(room.data(), state.data(), sizeof state);
+  return sizeof state;
+}
+
+Status FakeWorld::restoreState(std::span<const std::byte> bytes) {
+  std::array<std::uint64_t, 2> state{};
+  if (bytes.size() != sizeof state) return {StatusCode::data_loss, "no state of a fake world"};
+  std::memcpy(state.data(), bytes.data(), sizeof state);
+  steps_ = state[0];
+  wounds_.clear();
+  while (wounds_.size() < state[1]) wounds_.push_back({static_cast<std::uint32_t>(wounds_.size() + 1), 0.0, 0.0});
+  return {};
+}
+
+std::string_view FakeWorld::woundName(std::uint32_t id) const { return id == 1 ? "first" : ""; }
 
 Result<sph::Applied> FakeWorld::apply(const sph::Command& command) {
   log_->applied.emplace_back(steps_, command);

@@ -42,6 +42,10 @@ class FakeWorld final : public sph::World {
   void copyFrame(sph::FrameBuffer& frame, std::uint32_t attributes) const override;
   std::uint64_t stateHash() const override { return steps_ * 1000 + wounds_.size(); }
   Status adopt(sph::World& from) override;
+  std::size_t stateBytes() const override { return 2 * sizeof(std::uint64_t); }
+  std::size_t saveState(std::span<std::byte> room) const override;
+  Status restoreState(std::span<const std::byte> state) override;
+  std::string_view woundName(std::uint32_t id) const override;
   sph::MemoryUse memory() const override { return {}; }
   sph::RunningCode runningCode() const override { return {}; }
   const sph::WorldDescription& description() const override { return description_; }

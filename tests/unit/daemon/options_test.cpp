@@ -1,5 +1,6 @@
 #include "service/daemon/options.h"
 
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -44,6 +45,27 @@ TEST(Options, AreRead) {
   EXPECT_TRUE(options->check);
   EXPECT_EQ(options->log.level, "debug");
   EXPECT_EQ(options->log.file, "bleedd.log");
+}
+
+TEST(Options, SayWhereCheckpointsAre) {
+  const auto folder_of = [](std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), {"--scene", "a", "--session", "OR_1"});
+    const auto parsed = parse(arguments);
+    return std::get<Options>(parsed).checkpoint_folder;
+  };
+  setenv("STATE_DIRECTORY", "/var/lib/bleedsim:/other", 1);
+  EXPECT_FALSE(folder_of({}));
+  EXPECT_EQ(folder_of({"--checkpoint-dir", "/data"}), "/data/OR_1");
+  EXPECT_EQ(folder_of({"--checkpoint-every", "2.5"}), "/var/lib/bleedsim/OR_1");
+  unsetenv("STATE_DIRECTORY");
+  setenv("XDG_STATE_HOME", "/state", 1);
+  EXPECT_EQ(folder_of({"--resume"}), "/state/bleedsim/OR_1");
+  unsetenv("XDG_STATE_HOME");
+  setenv("HOME", "/home/me", 1);
+  EXPECT_EQ(folder_of({"--resume"}), "/home/me/.local/state/bleedsim/OR_1");
+  const auto parsed = parse({"--scene", "a", "--checkpoint-every", "2.5", "--checkpoint-dir", "b", "--resume"});
+  EXPECT_EQ(std::get<Options>(parsed).checkpoint_every, 2.5);
+  EXPECT_TRUE(std::get<Options>(parsed).resume);
 }
 
 TEST(Options, WrongOnesAreUsageErrors) {

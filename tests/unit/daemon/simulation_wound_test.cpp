@@ -68,11 +68,13 @@ TEST_F(WoundTest, ANarrowWoundBringsTensionAtTheStepAtWhichItOpens) {
   EXPECT_THAT(scene->effects, ElementsAre("surface_tension"));
   EXPECT_EQ(channels_.board.read().report.text, "auto: surface_tension on");
   const std::vector<dds::JournalEntry> entries = journal();
-  ASSERT_EQ(entries.size(), 2U);
-  EXPECT_EQ(std::get<dds::Decision>(entries[0].input).text, "auto: surface_tension on");
-  EXPECT_EQ(std::get<dds::RequestTaken>(entries[1].input).object_id, 1U);
-  EXPECT_EQ(entries[0].step, entries[1].step) << "one step boundary";
-  EXPECT_EQ(entries[1].step + 1, opened.applied_step);
+  ASSERT_EQ(entries.size(), 3U);
+  EXPECT_EQ(std::get<dds::Switched>(entries[0].input).narrowest_wound, 0.001);
+  EXPECT_FALSE(std::get<dds::Switched>(entries[0].input).by_request);
+  EXPECT_EQ(std::get<dds::Decision>(entries[1].input).text, "auto: surface_tension on");
+  EXPECT_EQ(std::get<dds::RequestTaken>(entries[2].input).object_id, 1U);
+  EXPECT_EQ(entries[0].step, entries[2].step) << "one step boundary";
+  EXPECT_EQ(entries[2].step + 1, opened.applied_step);
 }
 
 TEST_F(WoundTest, WhatWaitsAtTheEndIsAnswered) {

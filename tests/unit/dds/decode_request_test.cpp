@@ -55,6 +55,13 @@ bleed_v1_RequestBody effect(const std::string& name, bool enabled, const std::st
   body._u.effect.enabled = enabled;
   return body;
 }
+/// Both requests have the same body.
+bleed_v1_RequestBody checkpoint(std::uint32_t kind, const std::string& name) {
+  bleed_v1_RequestBody body = bodyOf(kind);
+  std::memcpy(body._u.save_checkpoint.name, name.data(), name.size());
+  return body;
+}
+
 bleed_v1_RequestBody acquire(double seconds) {
   bleed_v1_RequestBody body = bodyOf(bleed_v1_REQUEST_ACQUIRE);
   body._u.acquire.seconds = seconds;
@@ -130,6 +137,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadRequest{"too_many_steps", [] { return steps(0xFFFFFFFFU); }, StatusCode::invalid_argument, "step.count"},
         BadRequest{"lease_short", [] { return acquire(0.5); }, StatusCode::invalid_argument, "acquire.seconds is 0.5"},
         BadRequest{"lease_long", [] { return acquire(301.0); }, StatusCode::invalid_argument, "1 to 300 s of wall time"},
+        BadRequest{"checkpoint_path", [] { return checkpoint(bleed_v1_REQUEST_CHECKPOINT, "../a"); },
+                   StatusCode::invalid_argument, "checkpoint '../a': use 1 to 48 letters"},
+        BadRequest{"checkpoint_slash", [] { return checkpoint(bleed_v1_REQUEST_RESTORE, "a/b"); }, StatusCode::invalid_argument,
+                   "checkpoint 'a/b'"},
+        BadRequest{"checkpoint_dot", [] { return checkpoint(bleed_v1_REQUEST_RESTORE, "."); }, StatusCode::invalid_argument,
+                   "checkpoint '.'"},
+        BadRequest{"checkpoint_control", [] { return checkpoint(bleed_v1_REQUEST_RESTORE, "a\x01z"); },
+                   StatusCode::invalid_argument, "checkpoint 'a?z'"},
+        BadRequest{"checkpoint_unterminated", [] { return checkpoint(bleed_v1_REQUEST_RESTORE, std::string(49, 'a')); },
+                   StatusCode::invalid_argument, "use 1 to 48 letters"},
+        BadRequest{"checkpoint_of_the_service", [] { return checkpoint(bleed_v1_REQUEST_CHECKPOINT, "auto-1"); },
+                   StatusCode::invalid_argument, "the service's own"},
         BadRequest{"lease_nan", [] { return acquire(kNaN); }, StatusCode::invalid_argument, "acquire.seconds is nan"},
         BadRequest{"scene_null", [] { return sceneText(nullptr); }, StatusCode::invalid_argument, "load_scene.text is empty"},
         BadRequest{"scene_empty", [] { return sceneText(empty_text); }, StatusCode::invalid_argument,
@@ -282,6 +301,17 @@ INSTANTIATE_TEST_SUITE_P(
                       "instrument.name: byte 0 (0x01) is a control character"},
         BadInstrument{"name_bytes", [](auto& s) { s.name[1] = '\xff'; }, "instrument.name: byte 1 (0xff) is not UTF-8"}),
     [](const auto& tested) { return std::string{tested.param.name}; });
+
+TEST(DecodeAction, TakesNamesOfCheckpoints) {
+  const auto saved = decodeAction(checkpoint(bleed_v1_REQUEST_CHECKPOINT, "before_2"));
+  ASSERT_TRUE(saved.ok()) << saved.status().message();
+  EXPECT_EQ(std::get<SaveCheckpoint>(*saved).name, "before_2");
+  const auto restored = decodeAction(checkpoint(bleed_v1_REQUEST_RESTORE, "auto-00000001"));
+  ASSERT_TRUE(restored.ok()) << restored.status().message();
+  EXPECT_EQ(std::get<RestoreCheckpoint>(*restored).name, "auto-00000001");
+  EXPECT_EQ(std::get<SaveCheckpoint>(*decodeAction(checkpoint(bleed_v1_REQUEST_CHECKPOINT, ""))).name, "");
+  EXPECT_EQ(std::get<RestoreCheckpoint>(*decodeAction(checkpoint(bleed_v1_REQUEST_RESTORE, ""))).name, "");
+}
 
 }  // namespace
 }  // namespace bleedsim::dds

@@ -148,6 +148,10 @@ Journal makeJournal(std::mt19937_64& random, std::uint64_t number, int kind) {
     randomize(random, *journal.mutable_instrument_end());
   } else if (kind == kRequestKinds + 2) {
     journal.set_decision("slowed down");
+  } else if (kind == kRequestKinds + 3) {
+    randomize(random, *journal.mutable_restored());
+  } else if (kind == kRequestKinds + 4) {
+    randomize(random, *journal.mutable_switched());
   } else {
     Request& request = *journal.mutable_request()->mutable_request();
     randomize(random, request);

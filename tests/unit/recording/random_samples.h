@@ -34,8 +34,8 @@ void randomize(std::mt19937_64& random, google::protobuf::Message& message);
 Frame makeFrame(std::mt19937_64& random, std::uint64_t seq, std::uint32_t count);
 Scene makeScene(std::mt19937_64& random);
 /// Cases of a request, and of a journal entry with each request counted for itself.
-constexpr int kRequestKinds = 16;
-constexpr int kJournalKinds = kRequestKinds + 3;
+constexpr int kRequestKinds = 18;
+constexpr int kJournalKinds = kRequestKinds + 5;
 /// Kind 0 to kJournalKinds - 1: every case of a request, and the other bodies.
 Journal makeJournal(std::mt19937_64& random, std::uint64_t number, int kind);
 FrameStats makeStats(std::uint64_t seq, double emitted_ml);

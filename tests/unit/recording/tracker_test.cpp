@@ -70,6 +70,36 @@ TEST(ReplayCheck, AJournalThatStartsLateIsAGap) {
   EXPECT_EQ(check.reason(), "1 journal entries of epoch 1 are missing");
 }
 
+TEST(ReplayCheck, NeedsEveryEntryThatAStateContains) {
+  ReplayCheck check;
+  check.addFrame(kA, 1);
+  check.addScene(kA, 1);
+  check.addState(kA, 1, 0);
+  EXPECT_EQ(check.reason(), "");
+  check.addState(kA, 1, 3);
+  EXPECT_EQ(check.reason(), "3 journal entries of epoch 1 are missing");
+  check.addJournal(kA, 1, 1);
+  EXPECT_EQ(check.reason(), "2 journal entries of epoch 1 are missing");
+  check.addJournal(kA, 1, 3);
+  EXPECT_EQ(check.reason(), "1 journal entries of epoch 1 are missing");
+}
+
+TEST(ReplayCheck, NeedsTheStateThatAnEpochGoesOnFrom) {
+  ReplayCheck check;
+  check.addFrame(kA, 2);
+  check.addScene(kA, 2);
+  check.addJournal(kA, 2, 1);
+  check.addRestored(kA, 2, kA, 1, 2);
+  EXPECT_EQ(check.reason(), "the scene of epoch 1 is missing");
+  check.addScene(kA, 1);
+  EXPECT_EQ(check.reason(), "2 journal entries of epoch 1 are missing");
+  check.addJournal(kA, 1, 1);
+  check.addJournal(kA, 1, 2);
+  EXPECT_EQ(check.reason(), "");
+  check.addRestored(kA, 2, kB, 1, 2);
+  EXPECT_EQ(check.reason(), "epoch 2 begins with a checkpoint of another session, which is not in the file");
+}
+
 TEST(ReplayCheck, OneSessionOnly) {
   ReplayCheck check;
   check.addScene(kA, 1);

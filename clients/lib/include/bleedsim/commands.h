@@ -85,6 +85,7 @@ struct Reply {
   std::int64_t receive_stamp_ns = 0;
   std::int64_t reply_stamp_ns = 0;
   std::int64_t arrival_stamp_ns = 0;  ///< monotonic clock of this process
+  std::string object_name{};          ///< of the checkpoint that was written or restored
 
   bool accepted() const { return code == ReplyCode::accepted; }
 };

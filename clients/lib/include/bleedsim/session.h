@@ -92,6 +92,12 @@ class Session {
   /// Switches an effect of the running scene, e.g. "surface_tension". `settings` is protobuf text of its message in
   /// idl/scene.proto; empty: the settings it had when it was last on, or its defaults. The answer comes when it acts.
   std::future<Reply> setEffect(const std::string& name, bool enabled, const std::string& settings = {});
+  /// Keeps the state as it is now under this name, on the disk of the service; in place of one that has the name. Empty: the
+  /// service gives a name, Reply::object_name, and keeps the last three of these. The answer comes when it is written. For
+  /// services since protocol 1.3 that were started with --checkpoint-every or --checkpoint-dir.
+  std::future<Reply> checkpoint(const std::string& name = {});
+  /// Returns to a checkpoint, to the newest one without a name: a new epoch goes on from there. See SessionStatus::checkpoints.
+  std::future<Reply> restore(const std::string& name = {});
   std::future<Reply> shutdown();
   /// Makes this session object the only one that may command, for `length` of wall time (1 to 300 s): the commands of others get
   /// ReplyCode::leased and their instruments are not used. Acquire it again to keep it. It ends with this object, too. For

@@ -39,12 +39,23 @@ struct ClientActivity {
   double silent_s = 0.0;  ///< wall time since its last sample
 };
 
+/// A state that a session can return to, see Session::restore.
+struct CheckpointInfo {
+  std::string name;
+  std::uint32_t epoch = 0;  ///< of the session that it is of
+  std::uint64_t step = 0;
+  double sim_time_s = 0.0;
+  std::uint64_t bytes = 0;
+  std::int64_t realtime_stamp_ns = 0;  ///< when it was taken
+  bool own = false;                    ///< of this session; else of one of the same name before it
+};
+
 /// What a session says of itself, at least twice a second and at every change.
 struct SessionStatus {
   Uuid session{};
   std::string name;
   SessionState state = SessionState::unknown;
-  std::uint32_t epoch = 0;  ///< rises with each reset or load_scene
+  std::uint32_t epoch = 0;  ///< rises with each reset, load_scene or restore
   std::uint64_t step = 0;
   double sim_time_s = 0.0;
   std::uint64_t heartbeat = 0;
@@ -67,6 +78,8 @@ struct SessionStatus {
   std::vector<ClientActivity> clients;  ///< at most 32, those heard of last
   std::optional<Uuid> lease_client;     ///< the only one that may command now
   double lease_left_s = 0.0;            ///< wall time until the lease expires by itself
+  // Nothing from services before protocol 1.3:
+  std::vector<CheckpointInfo> checkpoints;  ///< at most 32, the newest first
 };
 
 /// The scene that runs; sent at each load, when an effect was switched, and to late joiners.
@@ -140,6 +153,7 @@ struct FrameStats {
   std::vector<NamedCounter> fault_counters;
   std::uint64_t frames_overwritten = 0;
   std::vector<AppliedInstrument> instruments;
+  std::uint64_t journal_number = 0;  ///< entries of the journal that the state contains; 0 from services before protocol 1.3
 };
 
 }  // namespace bleedsim::client

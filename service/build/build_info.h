@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace bleedsim::daemon {
+namespace bleedsim {
 
 /// The project's version, e.g. "1.0.0".
 std::string buildVersion();
@@ -11,4 +11,4 @@ std::string buildVersion();
 /// git's hash of the commit, "-dirty" when tracked files differed from it at the build; "unknown" without git.
 std::string buildId();
 
-}  // namespace bleedsim::daemon
+}  // namespace bleedsim

@@ -1,13 +1,13 @@
-#include "service/daemon/build_info.h"
+#include "service/build/build_info.h"
 
 #include <fmt/core.h>
 
-#include "service/daemon/revision.h"
+#include "service/build/revision.h"
 
-namespace bleedsim::daemon {
+namespace bleedsim {
 
 // BLEEDSIM_... and the revision are for this file alone, so that a new revision does not compile everything again.
 std::string buildVersion() { return BLEEDSIM_VERSION; }
 std::string buildId() { return fmt::format("{}-{} {} {}", BLEEDSIM_VERSION, kRevision, BLEEDSIM_COMPILER, BLEEDSIM_BUILD_TYPE); }
 
-}  // namespace bleedsim::daemon
+}  // namespace bleedsim

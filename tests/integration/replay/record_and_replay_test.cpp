@@ -1,0 +1,88 @@
+// A session recorded over DDS while it is commanded and pushed, simulated again by bleedlab.
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "bleedsim/recorder.h"
+#include "tests/integration/replay/replay_fixture.h"
+
+namespace bleedsim::replay_test {
+namespace {
+
+using testing::HasSubstr;
+
+class RecordAndReplay : public ReplayFixture {
+ protected:
+  std::string sceneText() const override { return poolScene(0.016); }
+
+  std::string file() const { return (folder_ / "run.mcap").string(); }
+
+  static void expectAccepted(const client::Reply& reply) { EXPECT_TRUE(reply.accepted()) << reply.reason; }
+
+  /// Waits until a state later by so many steps has come.
+  static void passSteps(client::Session& session, std::uint64_t count) {
+    const std::uint64_t from = session.status()->step;
+    const auto passed = [&](const client::SessionStatus& status) { return status.step >= from + count; };
+    EXPECT_TRUE(session.waitStatus(passed, test::kPatience).ok());
+  }
+
+  test::Finished replay(std::vector<std::string> more) const {
+    more.insert(more.begin(), {BLEEDLAB_PATH, "replay", file()});
+    return test::runProcess(more, true);
+  }
+};
+
+TEST_F(RecordAndReplay, IsBitEqualOnOneThreadAndOnTwo) {
+  const auto daemon = start({"--pace", "max", "--threads", "2", "--checkpoint-dir", checkpointDir()});
+  ASSERT_NE(daemon, nullptr);
+  client::Session& session = daemon->session();
+  auto recorder = client::Recorder::start(daemon->client(), session_, file(), {});
+  ASSERT_TRUE(recorder.ok()) << recorder.status().message();
+  {
+    auto tool = session.instrument(1, "PSM1");
+    ASSERT_TRUE(tool.ok()) << tool.status().message();
+    for (int k = 0; k < 20; ++k) {
+      ASSERT_TRUE(
+          tool->send({.position = {0.0005 * k, 0.0, 0.008}, .tip_radius_m = 0.005, .force = {0.003, 0.0, 0.0005 * k}}).ok());
+    }
+    passSteps(session, 20);
+    client::WoundSpec wound{.name = "second", .position = {0.025, 0.0, 0.0}, .radius_m = 0.003, .flow_ml_per_s = 2.0};
+    expectAccepted(session.addWound(wound).get());
+    expectAccepted(session.updateWound("cut", {.position = client::Vec3{-0.002, 0.001, 0.0}}).get());
+    expectAccepted(session.force({{0.0, 0.0, 0.01}, 0.006, {0.0, 0.004, 0.0}, 0.004}).get());
+    expectAccepted(session.setEffect("platelets", true, "clot_speedup: 50").get());
+    expectAccepted(session.checkpoint("here").get());
+    passSteps(session, 20);
+  }  // the tool is lost
+  expectAccepted(session.setEffect("platelets", false).get());
+  expectAccepted(session.restore("here").get());
+  expectAccepted(session.removeWound("second").get());
+  expectAccepted(session.pause().get());
+  expectAccepted(session.step(7).get());
+  expectAccepted(session.resume().get());
+  passSteps(session, 30);
+  expectAccepted(session.shutdown().get());
+  ASSERT_TRUE(recorder->waitDone(test::kPatience));
+  ASSERT_TRUE(recorder->close().ok());
+  const test::Finished info = test::runProcess({BLEEDCTL_PATH, "info", file()}, false);
+  EXPECT_EQ(info.code, 0) << info.output;
+
+  for (const char* threads : {"1", "2"}) {
+    const std::string json_file = (folder_ / "replay.json").string();
+    const test::Finished verified = replay({"--verify", "--threads", threads, "--json", json_file});
+    EXPECT_EQ(verified.code, 0) << verified.output;
+    EXPECT_THAT(verified.output, HasSubstr("recorded states are bit-equal"));
+    const nlohmann::json json = nlohmann::json::parse(std::ifstream{json_file});
+    EXPECT_TRUE(json["bit_equal"].get<bool>());
+    ASSERT_EQ(json["epochs"].size(), 2u);
+    EXPECT_GT(json["epochs"][0]["inputs"].get<int>(), 5);
+    EXPECT_GT(json["epochs"][0]["compared"].get<int>(), 3);
+    EXPECT_GT(json["epochs"][1]["compared"].get<int>(), 3);
+  }
+  const test::Finished other = replay({"--verify", "--simd", "scalar"});
+  EXPECT_EQ(other.code, 3) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("cannot be verified: it was made with SIMD target"));
+}
+
+}  // namespace
+}  // namespace bleedsim::replay_test
