@@ -7,7 +7,7 @@ namespace bleedsim::lab {
 namespace {
 
 constexpr const char* kFooter =
-    "Progress and messages go to stderr, results to stdout; with --json stdout holds one JSON object and nothing else.\n"
+    "Progress and messages go to stderr, results to stdout; with --json (or --json -) stdout holds one JSON object and nothing else.\n"
     "Exit codes: 0 done, 1 the solver failed or a file cannot be written, 2 wrong command line or scene.";
 
 /// The commands that were possible where the command line ended; empty if it was complete.
@@ -35,6 +35,9 @@ int runLab(int argc, const char* const* argv) {
   app.footer(kFooter);
   addEffectsCommand(app, context);
   addPaperCommand(app, context);
+  addValidateCommand(app, context);
+  addAccuracyCommand(app, context);
+  addChooseCommand(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -27,6 +27,9 @@ ExitCode fail(ExitCode code, const std::string& message);
 
 void addEffectsCommand(CLI::App& app, Context& context);
 void addPaperCommand(CLI::App& app, Context& context);
+void addValidateCommand(CLI::App& app, Context& context);
+void addAccuracyCommand(CLI::App& app, Context& context);
+void addChooseCommand(CLI::App& app, Context& context);
 
 int runLab(int argc, const char* const* argv);
 
