@@ -162,16 +162,16 @@ int runStatus(const Context& context) {
   return kDone;
 }
 
-/// "density +0.31 %, 46 steps of 812 us: force 401, density 203, neighbors 88": the error that the speed of sound allows, and what
-/// a step costs, the dearest stages by name.
+/// "density +0.31 %, 46 steps of 812 us: force 401, density 203, neighbors 88": the error that the speed of sound allows, and
+/// what a step costs, the dearest stages by name.
 std::string costText(const client::FrameStats& stats) {
   constexpr std::size_t kShown = 3;
   std::vector<std::pair<std::string, double>> stages = stats.stage_costs_us;
   double step = 0.0;
   for (const auto& [name, microseconds] : stages) step += microseconds;
   std::sort(stages.begin(), stages.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  std::string text = fmt::format("density +{:.2f} %, {} steps of {:.0f} us", 100.0 * stats.max_density_error,
-                                 stats.steps_in_frame, step);
+  std::string text =
+      fmt::format("density +{:.2f} %, {} steps of {:.0f} us", 100.0 * stats.max_density_error, stats.steps_in_frame, step);
   for (std::size_t k = 0; k < std::min(kShown, stages.size()); ++k)
     text += fmt::format("{} {} {:.0f}", k == 0 ? ":" : ",", stages[k].first, stages[k].second);
   return text;
@@ -284,7 +284,8 @@ void addSessionCommands(CLI::App& app, Context& context) {
   app.add_subcommand("status", "Show a session's state and scene")->callback([&context] {
     context.action = [&context] { return runStatus(context); };
   });
-  CLI::App* watch = app.add_subcommand("watch", "Show time, real-time factor, particles, mL, gaps, density error and the cost of a step until Ctrl-C");
+  CLI::App* watch = app.add_subcommand(
+      "watch", "Show time, real-time factor, particles, mL, gaps, density error and the cost of a step until Ctrl-C");
   watch->footer(kWatchText + watch->get_footer());  // what all commands say follows
   const auto count = std::make_shared<std::uint64_t>(0);
   watch->add_option("--count", *count, "End after so many lines; 0: never")

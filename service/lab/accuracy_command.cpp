@@ -42,8 +42,8 @@ ExitCode run(const Arguments& arguments) {
     results = measureAccuracy(options, [&](double part) { progress.report(part); });
   }
   if (results.measurements.empty())
-    return fail(ExitCode::failed, "nothing could be measured" +
-                                      (results.left_out.empty() ? "" : ": " + results.left_out.front().reason));
+    return fail(ExitCode::failed,
+                "nothing could be measured" + (results.left_out.empty() ? "" : ": " + results.left_out.front().reason));
   if (arguments.json != "-") fmt::print("{}\n\n{}", lineOf(results.machine), tablesOf(results));
   if (Status status = writeJson(arguments.json, toJson(results)); !status.ok()) return fail(ExitCode::failed, status.message());
   if (!arguments.folder.empty()) {

@@ -67,8 +67,9 @@ class Chooser {
     if (scene_.world.model == sph::Model::literal)
       return {StatusCode::invalid_argument, "the literal model has no accuracy to choose by; use a scene of model SOUND"};
     if (!std::isfinite(feature_))
-      return {StatusCode::invalid_argument, "the scene has neither a wound nor a block of blood; say what must be resolved with "
-                                            "--feature-mm"};
+      return {StatusCode::invalid_argument,
+              "the scene has neither a wound nor a block of blood; say what must be resolved with "
+              "--feature-mm"};
     if (!(volumeOf(scene_.world, horizon_) > 0.0))
       return {StatusCode::invalid_argument, "nothing bleeds within the horizon; give a longer --horizon or a scene with blood"};
     return {};
@@ -166,9 +167,7 @@ class Chooser {
     models.time = [&](double support, double spacing, double mach) {
       return calibration.time.at(support).predict(spacing, mach, scene_.frame_rate);
     };
-    models.error = [&](double support, double spacing, double mach) {
-      return errors.predict(support, feature_ / spacing, mach);
-    };
+    models.error = [&](double support, double spacing, double mach) { return errors.predict(support, feature_ / spacing, mach); };
     const auto choice = choose(models, {arguments_.budget_ms, arguments_.error, feature_});
     if (!choice) return choice.status();
     scene::ResolutionChange change;
@@ -282,7 +281,9 @@ void addChooseCommand(CLI::App& app, Context& context) {
       ->check(finiteIn(0.01, 1e5));
   command->add_option("--error", arguments->error, "Largest error, 0.05 for 5 %; default the smallest that the budget allows")
       ->check(finiteIn(1e-4, 1.0));
-  command->add_option("--horizon", arguments->horizon, "Simulated time after which the scene is full, s; default its horizon_s, or 5")
+  command
+      ->add_option("--horizon", arguments->horizon,
+                   "Simulated time after which the scene is full, s; default its horizon_s, or 5")
       ->check(finiteIn(0.01, 1000.0));
   command->add_option("--feature-mm", arguments->feature_mm, "What must be resolved, mm; default the narrowest wound or block")
       ->check(finiteIn(0.01, 1000.0));

@@ -24,7 +24,8 @@ struct Arguments {
 
 ExitCode listCases() {
   for (const ValidationCase& one : validationCases())
-    fmt::print("{:>2}  {:<20} {}: {}\n", one.number > 0 ? std::to_string(one.number) : "-", one.name, one.measures, one.reference);
+    fmt::print("{:>2}  {:<20} {}: {}\n", one.number > 0 ? std::to_string(one.number) : "-", one.name, one.measures,
+               one.reference);
   return ExitCode::done;
 }
 

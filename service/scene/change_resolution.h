@@ -13,7 +13,7 @@ struct ResolutionChange {
   double spacing = 0.0;        ///< m
   double support_ratio = 0.0;  ///< h/dx
   double mach_factor = 0.0;
-  std::uint32_t capacity = 0;          ///< at least; the scene's own stays if it is larger
+  std::uint32_t capacity = 0;         ///< at least; the scene's own stays if it is larger
   std::vector<std::string> left_out;  ///< names of effects that are on and go off
 };
 

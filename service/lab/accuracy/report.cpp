@@ -23,8 +23,8 @@ std::string spreadText(const Spread& spread) {
 }
 
 std::string settingText(const Knobs& knobs) {
-  std::string text = fmt::format("{} across, h = {} dx, Mach {}, CFL {}", knobs.across, knobs.support_ratio, knobs.mach_factor,
-                                 knobs.cfl);
+  std::string text =
+      fmt::format("{} across, h = {} dx, Mach {}, CFL {}", knobs.across, knobs.support_ratio, knobs.mach_factor, knobs.cfl);
   if (knobs.precision == sph::Precision::float64) text += ", double";
   if (knobs.threads > 1) text += fmt::format(", {} threads", knobs.threads);
   return text;
@@ -169,13 +169,13 @@ std::string csvOf(const AccuracyResults& results) {
       "cpu_s_per_s,cpu_low,cpu_high,wall_s_per_s,wall_low,wall_high,real_time_factor,us_per_particle_step,us_low,us_high\n";
   for (const Measurement& one : results.measurements) {
     const Knobs& knobs = one.setting.knobs;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{:.9g},{:.9g},{},{},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},"
-                        "{:.5g},{:.5g},{:.5g}\n",
-                        one.setting.which->name, one.setting.knob, knobs.across, knobs.support_ratio, knobs.mach_factor, knobs.cfl,
-                        knobs.precision == sph::Precision::float64 ? "double" : "float", knobs.threads,
-                        one.setting.which->error_figure, one.value, one.error, one.particles, one.steps, one.runs, one.cpu.median,
-                        one.cpu.low, one.cpu.high, one.wall.median, one.wall.low, one.wall.high, one.realTimeFactor(),
-                        one.microseconds.median, one.microseconds.low, one.microseconds.high);
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{:.9g},{:.9g},{},{},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},"
+        "{:.5g},{:.5g},{:.5g}\n",
+        one.setting.which->name, one.setting.knob, knobs.across, knobs.support_ratio, knobs.mach_factor, knobs.cfl,
+        knobs.precision == sph::Precision::float64 ? "double" : "float", knobs.threads, one.setting.which->error_figure,
+        one.value, one.error, one.particles, one.steps, one.runs, one.cpu.median, one.cpu.low, one.cpu.high, one.wall.median,
+        one.wall.low, one.wall.high, one.realTimeFactor(), one.microseconds.median, one.microseconds.low, one.microseconds.high);
   }
   return text;
 }
@@ -184,14 +184,15 @@ std::string tablesOf(const AccuracyResults& results) {
   std::string text = measurementTable(results);
   text +=
       "\nReal-time factor: simulated over wall time. Microseconds: CPU time, median (lowest-highest) of the runs.\n\n"
-      "Where the errors come from: by how much of the reference a figure changes when one knob goes on from the base (20 across, h "
+      "Where the errors come from: by how much of the reference a figure changes when one knob goes on from the base (20 across, "
+      "h "
       "= 2.5 dx, Mach 10, CFL 0.4) to its finest measured value.\n\n";
   text += separatedTable(results);
   if (results.left_out.empty()) return text;
   text += fmt::format("\nLeft out of the {} minutes:\n\n", results.minutes);
   for (const LeftOut& one : results.left_out) {
-    text += fmt::format("- {}, {} ({}): {}\n", one.setting.which->name, one.setting.knob, settingText(one.setting.knobs),
-                        one.reason);
+    text +=
+        fmt::format("- {}, {} ({}): {}\n", one.setting.which->name, one.setting.knob, settingText(one.setting.knobs), one.reason);
   }
   return text;
 }

@@ -8,9 +8,9 @@
 namespace bleedsim::lab {
 namespace {
 
-constexpr int kCoarse = 10;             // across
-constexpr std::array kFiner{14, 28};    // beside the base's 20
-constexpr double kDoubleCost = 8.0;     // the scalar twin's steps over those of the widest vectors
+constexpr int kCoarse = 10;           // across
+constexpr std::array kFiner{14, 28};  // beside the base's 20
+constexpr double kDoubleCost = 8.0;   // the scalar twin's steps over those of the widest vectors
 
 /// The base with one knob moved, each value of it.
 std::vector<Knobs> movedBy(const std::string& knob, const Knobs& base) {
@@ -67,11 +67,11 @@ std::vector<Setting> settingsOf(const std::vector<const ValidationCase*>& cases,
   return settings;
 }
 
-double estimateSeconds(const Knobs& at, double measured, const Knobs& setting) {
-  const double finer = static_cast<double>(setting.across) / at.across;
-  double factor = std::pow(finer, 4.0) * std::pow(setting.support_ratio / at.support_ratio, 3.0);
-  factor *= std::max(1.0, setting.mach_factor / at.mach_factor) * (at.cfl / setting.cfl);
-  if (setting.precision != at.precision) factor *= setting.precision == sph::Precision::float64 ? kDoubleCost : 1.0;
+double estimateSeconds(const ValidationCase& which, const Knobs& at, double measured, const Knobs& knobs) {
+  const double finer = static_cast<double>(knobs.across) / at.across;
+  double factor = std::pow(finer, which.cost_power) * std::pow(knobs.support_ratio / at.support_ratio, 3.0);
+  factor *= std::max(1.0, knobs.mach_factor / at.mach_factor) * (at.cfl / knobs.cfl);
+  if (knobs.precision != at.precision) factor *= knobs.precision == sph::Precision::float64 ? kDoubleCost : 1.0 / kDoubleCost;
   return measured * factor;
 }
 

@@ -21,10 +21,9 @@ const std::vector<std::string>& knobNames();
 /// by knob, the rest. Cases without an error figure are left out. Knobs must be among knobNames().
 std::vector<Setting> settingsOf(const std::vector<const ValidationCase*>& cases, const std::vector<std::string>& knobs);
 
-/// What `setting` is expected to take, from `measured` seconds of the same case at `at`: particles and steps in three dimensions
-/// for spacing, neighbours for the support radius, steps for the others. An upper estimate where the sides of a case shrink with
-/// its spacing or its steps are not bounded by sound.
-double estimateSeconds(const Knobs& at, double measured, const Knobs& setting);
+/// What a case is expected to take at `knobs`, from `measured` seconds of it at `at`: by the power of the case for spacing, by
+/// neighbours for the support radius, by steps for the others.
+double estimateSeconds(const ValidationCase& which, const Knobs& at, double measured, const Knobs& knobs);
 
 /// A wall time that is kept: what does not fit is not begun.
 class TimeBudget {

@@ -14,7 +14,7 @@ constexpr double kEffectsPart = 0.1;  // of the time
 
 double wallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// What the runs of a case took last, and at which knobs.
+/// What a run of a case took, and at which knobs.
 struct Known {
   Knobs knobs;
   double seconds = 0.0;
@@ -48,8 +48,7 @@ Result<Measurement> measure(const Setting& setting, int runs, const std::functio
     const auto result = setting.which->run(setting.knobs);
     if (!result) return result.status();
     const Figure* figure = result->find(setting.which->error_figure);
-    if (figure == nullptr)
-      return Status{StatusCode::internal, fmt::format("no figure '{}'", setting.which->error_figure)};
+    if (figure == nullptr) return Status{StatusCode::internal, fmt::format("no figure '{}'", setting.which->error_figure)};
     const RunCost& cost = result->cost;
     if (!(cost.simulated > 0.0)) return Status{StatusCode::internal, "too short to be timed"};
     measurement.value = figure->value;
@@ -102,7 +101,7 @@ AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::funct
     const auto before = known.find(setting.which->name);
     const bool first = before == known.end();
     const double estimate =
-        first ? 0.0 : options.runs * estimateSeconds(before->second.knobs, before->second.seconds, setting.knobs);
+        first ? 0.0 : options.runs * estimateSeconds(*setting.which, before->second.knobs, before->second.seconds, setting.knobs);
     if (!budget.fits(estimate) || !(budget.left() > 0.0)) {
       results.left_out.push_back(
           {setting, fmt::format("needs about {:.0f} s, {:.0f} s were left", estimate, std::max(0.0, budget.left()))});
@@ -118,7 +117,8 @@ AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::funct
     const double took = wallSeconds() - begin;
     budget.spend(took);
     if (measured) {
-      known[setting.which->name] = {setting.knobs, took / measured->runs};
+      if (setting.knob == "spacing" || setting.knob == "base")
+        known[setting.which->name] = {setting.knobs, took / measured->runs};
       results.measurements.push_back(std::move(*measured));
     } else {
       results.left_out.push_back({setting, measured.status().message()});
@@ -137,9 +137,8 @@ AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::funct
 std::vector<std::size_t> paretoFront(const std::vector<double>& time, const std::vector<double>& error) {
   std::vector<std::size_t> order(time.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return time[a] != time[b] ? time[a] < time[b] : error[a] < error[b];
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return time[a] != time[b] ? time[a] < time[b] : error[a] < error[b]; });
   std::vector<std::size_t> front;
   for (const std::size_t k : order) {
     if (front.empty() || error[k] < error[front.back()]) front.push_back(k);
@@ -184,7 +183,8 @@ SeparatedErrors separate(const std::vector<Measurement>& measurements, const Val
   if (finest != nullptr && finest->setting.knobs.across > base->setting.knobs.across) errors.spacing = change(finest);
   errors.time_step = change(furthest(own, "cfl", [](const Knobs& knobs) { return -knobs.cfl; }));
   const Measurement* stiff = furthest(own, "mach", [](const Knobs& knobs) { return knobs.mach_factor; });
-  if (stiff != nullptr && stiff->setting.knobs.mach_factor > base->setting.knobs.mach_factor) errors.compressibility = change(stiff);
+  if (stiff != nullptr && stiff->setting.knobs.mach_factor > base->setting.knobs.mach_factor)
+    errors.compressibility = change(stiff);
   errors.precision = change(furthest(own, "precision", [](const Knobs&) { return 0.0; }));
   std::vector<double> across;
   std::vector<double> error;

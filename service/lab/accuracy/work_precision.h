@@ -29,9 +29,9 @@ struct Measurement {
   std::uint32_t particles = 0;
   std::uint64_t steps = 0;  ///< of one run
   int runs = 0;
-  Spread cpu;            ///< s for each simulated s
-  Spread wall;           ///< s for each simulated s
-  Spread microseconds;   ///< CPU time per particle and step
+  Spread cpu;           ///< s for each simulated s
+  Spread wall;          ///< s for each simulated s
+  Spread microseconds;  ///< CPU time per particle and step
   double realTimeFactor() const { return wall.median > 0.0 ? 1.0 / wall.median : 0.0; }
 };
 
@@ -70,7 +70,7 @@ std::optional<double> convergenceOrder(const std::vector<double>& x, const std::
 /// What part of a figure each knob is responsible for, of one case: the change of its value, over the reference, from the base
 /// to the finest spacing, the shortest step and the largest Mach factor that were measured; none without one.
 struct SeparatedErrors {
-  double total = 0.0;  ///< error at the base
+  std::optional<double> total;  ///< error at the base
   std::optional<double> spacing, time_step, compressibility, precision;
   std::optional<double> spacing_order;
 };

@@ -19,16 +19,19 @@ std::string costText(const FrameTime& time) {
                      time.particles, time.steps, time.microseconds);
 }
 
-Status nothingFits(const ChoiceRequest& request, const std::optional<Choice>& cheapest, const std::optional<Choice>& most_accurate) {
+Status nothingFits(const ChoiceRequest& request, const std::optional<Choice>& cheapest,
+                   const std::optional<Choice>& most_accurate) {
   if (!cheapest) {
-    return {StatusCode::capacity,
-            fmt::format("nothing keeps an error of {:.3g} %: the finest setting that was looked at, {}, has {:.3g} %; ask for more "
-                        "with --error",
-                        100.0 * *request.error, settingText(*most_accurate), 100.0 * most_accurate->error.total())};
+    return {
+        StatusCode::capacity,
+        fmt::format("nothing keeps an error of {:.3g} %: the finest setting that was looked at, {}, has {:.3g} %; ask for more "
+                    "with --error",
+                    100.0 * *request.error, settingText(*most_accurate), 100.0 * most_accurate->error.total())};
   }
-  const std::string what = request.error ? fmt::format("the cheapest setting that keeps an error of {:.3g} %", 100.0 * *request.error)
-                                         : fmt::format("even with {:.0f} particles across the narrowest place of {:.2f} mm",
-                                                       kLeastAcross, 1e3 * request.feature);
+  const std::string what = request.error
+                               ? fmt::format("the cheapest setting that keeps an error of {:.3g} %", 100.0 * *request.error)
+                               : fmt::format("even with {:.0f} particles across the narrowest place of {:.2f} mm", kLeastAcross,
+                                             1e3 * request.feature);
   return {StatusCode::capacity, fmt::format("nothing fits {} ms ({:.3g} ms with a reserve of a tenth): {} ({}) takes {}; raise "
                                             "--budget-ms{}, or make the scene smaller",
                                             request.budget_ms, kBudgetPart * request.budget_ms, what, settingText(*cheapest),
@@ -57,8 +60,9 @@ Result<Choice> choose(const ChoiceModels& models, const ChoiceRequest& request) 
   }
   if (best) return *best;
   if (!most_accurate) {
-    return Status{StatusCode::invalid_argument,
-                  fmt::format("the narrowest place of {:.3g} mm is below what can be resolved; give --feature-mm", 1e3 * request.feature)};
+    return Status{
+        StatusCode::invalid_argument,
+        fmt::format("the narrowest place of {:.3g} mm is below what can be resolved; give --feature-mm", 1e3 * request.feature)};
   }
   return nothingFits(request, cheapest, most_accurate);
 }

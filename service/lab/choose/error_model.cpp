@@ -36,7 +36,8 @@ Result<FlowPoint> measureFlow(double support_ratio, int rows, const sph::WorldOp
 
 Result<std::vector<FlowPoint>> readFlowPoints(const std::filesystem::path& file) {
   std::ifstream stream{file, std::ios::binary};
-  if (!stream) return Status{StatusCode::not_found, "cannot open '" + file.string() + "'; give a file of `bleedlab accuracy --json`"};
+  if (!stream)
+    return Status{StatusCode::not_found, "cannot open '" + file.string() + "'; give a file of `bleedlab accuracy --json`"};
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
   if (json.is_discarded() || !json.is_object() || !json.contains("measurements") || !json["measurements"].is_array())
     return damaged(file, "holds no measurements");
@@ -48,8 +49,10 @@ Result<std::vector<FlowPoint>> readFlowPoints(const std::filesystem::path& file)
     for (const char* number : {"support_ratio", "across", "error"}) {
       if (!row.contains(number) || !row[number].is_number()) return damaged(file, fmt::format("has a row without {}", number));
     }
-    const FlowPoint point{row["support_ratio"].get<double>(), row["across"].get<double>() / kAcrossOfRow, row["error"].get<double>()};
-    if (!(point.rows > 0.0) || !(point.error > 0.0) || !std::isfinite(point.error)) return damaged(file, "has a row out of range");
+    const FlowPoint point{row["support_ratio"].get<double>(), row["across"].get<double>() / kAcrossOfRow,
+                          row["error"].get<double>()};
+    if (!(point.rows > 0.0) || !(point.error > 0.0) || !std::isfinite(point.error))
+      return damaged(file, "has a row out of range");
     points.push_back(point);
   }
   if (points.empty()) return damaged(file, "has no row of the case");

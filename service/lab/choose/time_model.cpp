@@ -6,9 +6,9 @@
 #include <ctime>
 #include <limits>
 
+#include "service/sph/world_setup.h"
 #include "service/sph/wound/orifice.h"
 #include "service/sph/wound/patch_geometry.h"
-#include "service/sph/world_setup.h"
 
 namespace bleedsim::lab {
 namespace {

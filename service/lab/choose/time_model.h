@@ -2,8 +2,8 @@
 //
 //   ms per frame = N x steps per frame x us per particle-step / 1000
 //
-// N is the volume at the horizon over dx^3; the step follows the limits of the solver (time_step.h), times what the finer run kept
-// of them, since accelerations shorten some; us follows N by the power law between the two runs.
+// N is the volume at the horizon over dx^3; the step follows the limits of the solver (time_step.h), times what the finer run
+// kept of them, since accelerations shorten some; us follows N by the power law between the two runs.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,12 @@ struct SceneSample {
   double max_speed = 0.0;       ///< m/s
   double frame_ms = 0.0;        ///< mean cost of a frame
   double mean_density_error = 0.0;
-  double wall_s = 0.0;          ///< that the whole run took
+  double wall_s = 0.0;  ///< that the whole run took
 };
 
 /// Runs the scene for `horizon` s and measures its last tenth.
-Result<SceneSample> runScene(const sph::WorldDescription& scene, double horizon, double frame_rate, const sph::WorldOptions& options);
+Result<SceneSample> runScene(const sph::WorldDescription& scene, double horizon, double frame_rate,
+                             const sph::WorldOptions& options);
 
 /// Blood at the end of the horizon, m^3: blocks, and what wounds bring.
 double volumeOf(const sph::WorldDescription& scene, double horizon);

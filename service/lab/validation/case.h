@@ -38,10 +38,10 @@ Figure residual(std::string name, double value, std::optional<double> bound);
 struct RunCost {
   std::uint64_t steps = 0;
   std::uint64_t particle_steps = 0;
-  double simulated = 0.0;  ///< s
-  double cpu = 0.0;        ///< s, of all threads
-  double wall = 0.0;       ///< s
-  double all_wall = 0.0;   ///< s, with what was left out: what a run of the case takes
+  double simulated = 0.0;       ///< s
+  double cpu = 0.0;             ///< s, of all threads
+  double wall = 0.0;            ///< s
+  double all_wall = 0.0;        ///< s, with what was left out: what a run of the case takes
   std::uint32_t particles = 0;  ///< of the largest world
 
   double realTimeFactor() const { return wall > 0.0 ? simulated / wall : 0.0; }
@@ -69,6 +69,7 @@ struct ValidationCase {
   std::string_view measures;
   std::string_view reference;     ///< formula and source
   std::string_view error_figure;  ///< that stands for the case in work-precision plots; empty: none
+  double cost_power;  ///< p of its run's cost ~ across^p: how many sides have more particles, and how much shorter steps get
   Result<CaseResult> (*run)(const Knobs& knobs);
 };
 

@@ -23,8 +23,7 @@ std::vector<double> rowSpeeds(const sph::World& world, int rows) {
   const Frame frame = frameOf(world);
   std::vector<double> speeds;
   for (int row = 0; row < rows; ++row) {
-    speeds.push_back(
-        layerMean(frame, world.description().spacing, 2, row, [&](std::size_t i) { return frame.velocity(i).x(); }));
+    speeds.push_back(layerMean(frame, world.description().spacing, 2, row, [&](std::size_t i) { return frame.velocity(i).x(); }));
   }
   return speeds;
 }

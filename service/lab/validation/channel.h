@@ -7,8 +7,8 @@ namespace bleedsim::lab {
 
 using Profile = std::function<double(double)>;  ///< speed at a height, m/s
 
-/// Blood `rows` spacings and `depth` m deep on the plane z = 0, periodic along x and y, under the acceleration `force`. With a lid
-/// also between. Pressure, and viscosity solved explicitly.
+/// Blood `rows` spacings and `depth` m deep on the plane z = 0, periodic along x and y, under the acceleration `force`. With a
+/// lid also between. Pressure, and viscosity solved explicitly.
 sph::WorldDescription channelScene(const Knobs& knobs, int rows, double depth, bool lid, const sph::Vec3& force,
                                    double design_speed);
 

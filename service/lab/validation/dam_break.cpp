@@ -1,5 +1,5 @@
-// Case 10: a column of water, 2 a high and a wide, collapses. Martin & Moyce 1952, n^2 = 2, a = 57.15 mm; their front as digitised
-// by others. The front's position does not discriminate accuracy, so the case is no measure of it.
+// Case 10: a column of water, 2 a high and a wide, collapses. Martin & Moyce 1952, n^2 = 2, a = 57.15 mm; their front as
+// digitised by others. The front's position does not discriminate accuracy, so the case is no measure of it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +66,8 @@ Result<picture::Series> runFront(double slip, const Knobs& knobs, RunCost& cost)
   scene.effects.viscosity.emplace().viscosity = 0.001;
   scene.effects.gravity.emplace();
   scene.tissue.push_back({.name = "floor", .shape = sph::PlaneShape{}, .slip = slip});
-  scene.tissue.push_back({.name = "wall", .shape = sph::PlaneShape{.point = sph::Vec3::Zero(), .normal = {1, 0, 0}}, .slip = slip});
+  scene.tissue.push_back(
+      {.name = "wall", .shape = sph::PlaneShape{.point = sph::Vec3::Zero(), .normal = {1, 0, 0}}, .slip = slip});
   addBlock(scene, sph::Vec3::Zero(), {knobs.across, side, 2 * knobs.across});
   auto world = CaseWorld::create(scene, knobs, cost);
   if (!world) return world.status();
@@ -89,7 +90,8 @@ Result<CaseResult> runDamBreak(const Knobs& knobs) {
   plot.title = "Front of a collapsing column";
   plot.x.label = "T = t sqrt(2 g/a)";
   plot.y.label = "Z = x/a";
-  plot.series = {{"Martin & Moyce 1952", picture::SeriesStyle::points, {kTime.begin(), kTime.end()}, {kFront.begin(), kFront.end()}}};
+  plot.series = {
+      {"Martin & Moyce 1952", picture::SeriesStyle::points, {kTime.begin(), kTime.end()}, {kFront.begin(), kFront.end()}}};
   for (const double slip : {1.0, 0.0}) {
     if (slip == 0.0 && !knobs.beside) continue;
     RunCost aside;
@@ -97,8 +99,7 @@ Result<CaseResult> runDamBreak(const Knobs& knobs) {
     if (!series) return series.status();
     const Fit fit = bestFit(series->x, series->y);
     const std::string name = slip == 1.0 ? "free_slip" : "no_slip";
-    result.figures.push_back(
-        residual("rms_" + name, fit.rms, slip == 1.0 ? std::optional{0.06} : std::optional<double>{}));
+    result.figures.push_back(residual("rms_" + name, fit.rms, slip == 1.0 ? std::optional{0.06} : std::optional<double>{}));
     result.figures.push_back(residual("shift_" + name, fit.shift, slip == 1.0 ? std::optional{0.3} : std::optional<double>{}));
     series->name = slip == 1.0 ? "free slip" : "no slip";
     plot.series.push_back(*series);

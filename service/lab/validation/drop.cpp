@@ -1,4 +1,5 @@
 // Case 9: a free drop, sigma 0.055 N/m: of 8 mm radius where it swings, of 1 mm spacing where its pressure is compared.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -96,8 +97,8 @@ double prolateness(const sph::World& world) {
 }  // namespace
 
 // rho R^3 is that of the drop's mass. The drop at rest gets the velocity of the mode, 0.1 omega (-x/2, -y/2, z), and swings at
-// blood's viscosity. The period is that of the zero crossings, two of them to a period; whole periods, so that a drop that rests a
-// little out of round does not matter.
+// blood's viscosity. The period is that of the zero crossings, two of them to a period; whole periods, so that a drop that rests
+// a little out of round does not matter.
 Result<CaseResult> runDropPeriod(const Knobs& knobs) {
   CaseResult result;
   const auto resting = restingDrop(knobs, 2.0 * kRadius / knobs.across, 0.1, result.cost);
@@ -105,8 +106,9 @@ Result<CaseResult> runDropPeriod(const Knobs& knobs) {
   const double radius = radiusOf(**resting);
   const double omega = std::sqrt(8.0 * kSigma / (kBloodDensity * radius * radius * radius));
   const double expected = 2.0 * std::numbers::pi / omega;
-  sph::WorldDescription scene = restarted(
-      **resting, [&](const Vec3& x) -> Vec3 { return 0.1 * omega * Vec3{-0.5 * x.x(), -0.5 * x.y(), x.z()}; });
+  sph::WorldDescription scene = restarted(**resting, [&](const Vec3& x) -> Vec3 {
+    return 0.1 * omega * Vec3{-0.5 * x.x(), -0.5 * x.y(), x.z()};
+  });
   scene.effects.viscosity->viscosity = 0.00345;
   auto world = CaseWorld::create(scene, knobs, result.cost);
   if (!world) return world.status();

@@ -1,9 +1,8 @@
 // Case 2: what no pair force may change. Both precisions, whatever the knobs say.
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <string>
-
-#include <Eigen/Geometry>
 
 #include "service/lab/validation/case_world.h"
 #include "service/lab/validation/cases.h"
@@ -85,8 +84,8 @@ Status collide(const Knobs& knobs, const Width& width, CaseResult& result) {
 
 /// A turning block of thick blood is a rigid body: the central form of the implicit solve takes neither its momentum nor its
 /// angular momentum. What is left is the solve's residual and, in float, the rounding of dt D v, whose terms are far larger than
-/// their sum: 1.2e-8 a step from a tolerance of 1e-7 on down to 1e-9, always to the same side, hence 50 steps. The angular momentum
-/// is that of frames, which are float in either: 2e-8.
+/// their sum: 1.2e-8 a step from a tolerance of 1e-7 on down to 1e-9, always to the same side, hence 50 steps. The angular
+/// momentum is that of frames, which are float in either: 2e-8.
 Status turn(const Knobs& knobs, const Width& width, CaseResult& result) {
   const bool twice = width.precision == Precision::float64;
   sph::WorldDescription scene = emptyScene(knobs, kSpacing, 0.5);
@@ -113,8 +112,8 @@ Status turn(const Knobs& knobs, const Width& width, CaseResult& result) {
     return {StatusCode::internal, "the implicit solve did no work, or not all of it"};
   result.figures.push_back(residual(std::string{"angular_momentum_"} + width.name,
                                     (angularMomentum(**world).sum - before.sum).norm() / before.scale, 1e-6));
-  result.figures.push_back(residual(std::string{"thick_momentum_"} + width.name, (stats.momentum - momentum).norm() / scale,
-                                    twice ? 1e-10 : 1e-6));
+  result.figures.push_back(
+      residual(std::string{"thick_momentum_"} + width.name, (stats.momentum - momentum).norm() / scale, twice ? 1e-10 : 1e-6));
   return {};
 }
 

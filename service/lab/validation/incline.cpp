@@ -1,5 +1,6 @@
 // Case 13: a film on a slope of 30 degrees, H = 3 mm, mu = 0.1 Pa s: u_s = rho g sin(30) H^2/(2 mu) = 0.234 m/s, q = u_s H 2/3 =
 // 4.68e-4 m^2/s.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -1,4 +1,5 @@
 // Case 1: kernels by themselves. The pair passes evaluate the same functions (smoothing_kernel.h).
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/core.h>

@@ -1,5 +1,5 @@
-// Case 6, the layers: unlike blood in contact. The stress between two layers is continuous; the harmonic mean of their viscosities
-// makes it exact (physics.md section 1).
+// Case 6, the layers: unlike blood in contact. The stress between two layers is continuous; the harmonic mean of their
+// viscosities makes it exact (physics.md section 1).
 #include <cmath>
 
 #include "service/lab/validation/cases.h"
@@ -47,8 +47,9 @@ Status drivenLayers(const Knobs& knobs, CaseResult& result) {
 }
 
 /// A plane Couette flow of two layers, mu 1:100, the stress tau in both: u = tau z/mu_k on either side of z = 0. The pairs within
-/// the lower layer cancel, so its force is the stress of the upper one, tau x area; its own lower face is free. A particle stands for
-/// rho0 dx^3 of blood (its calibrated mass is that over the kernel's lattice sum). The arithmetic mean would be 25 times too large.
+/// the lower layer cancel, so its force is the stress of the upper one, tau x area; its own lower face is free. A particle stands
+/// for rho0 dx^3 of blood (its calibrated mass is that over the kernel's lattice sum). The arithmetic mean would be 25 times too
+/// large.
 Status interfaceStress(const Knobs& knobs, CaseResult& result) {
   constexpr double kSpacing = 0.001;  // m
   constexpr double kThin = 0.004;     // Pa s

@@ -49,7 +49,7 @@ sph::WorldDescription emptyScene(const Knobs& knobs, double spacing, double desi
   return scene;
 }
 
-int periodicCount(const Knobs& knobs) { return std::max(8, static_cast<int>(std::ceil(3.0 * knobs.support_ratio - 1e-9))); }
+int periodicCount(const Knobs& knobs) { return std::max(8, static_cast<int>(std::ceil(3.0 * knobs.support_ratio + 1e-6))); }
 
 void addBlock(sph::WorldDescription& scene, const Vec3& lower, const Counts& counts) {
   sph::FluidBlock block;
@@ -79,7 +79,9 @@ void setFlow(sph::WorldDescription& scene, int along, const VelocityField& field
   const sph::FluidBlock block = scene.fluid_blocks.front();
   const int first = (along + 1) % 3;
   const int second = (along + 2) % 3;
-  const auto count = [&](int axis) { return static_cast<int>(std::lround((block.upper[axis] - block.lower[axis]) / scene.spacing)); };
+  const auto count = [&](int axis) {
+    return static_cast<int>(std::lround((block.upper[axis] - block.lower[axis]) / scene.spacing));
+  };
   scene.fluid_blocks.clear();
   for (int j = 0; j < count(second); ++j) {
     for (int i = 0; i < count(first); ++i) {

@@ -19,7 +19,7 @@ using Counts = std::array<int, 3>;
 /// Blood without a particle, tissue or effect, at the knobs' support ratio, Mach factor and seed.
 sph::WorldDescription emptyScene(const Knobs& knobs, double spacing, double design_speed);
 
-/// Fewest particles along a periodic side whose flow does not vary: three support radii, at least 8.
+/// Fewest particles along a periodic side whose flow does not vary: more than three support radii, at least 8.
 int periodicCount(const Knobs& knobs);
 
 /// Adds a block of `counts` particles.

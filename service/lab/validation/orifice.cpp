@@ -59,9 +59,9 @@ Result<CaseResult> runOrificeLaw(const Knobs& knobs) {
 }
 
 // A tank, 30 rows deep and 24 wide, empties through a slot in its floor, 6 rows wide; floor and walls are free of friction, sides
-// periodic. Cd = (dV/dt)/(A sqrt(2 g H)) with the head H over the slot's upper edge, where a jet that touches nothing below leaves
-// (pressure is never below 0, so the floor's thickness sucks nothing), over the time in which the level falls from nine to six
-// tenths. Between a sharp edge's pi/(pi + 2) = 0.61 and a rounded one's 0.97. Fewer than 4 particles across resolve nothing.
+// periodic. Cd = (dV/dt)/(A sqrt(2 g H)) with the head H over the slot's upper edge, where a jet that touches nothing below
+// leaves (pressure is never below 0, so the floor's thickness sucks nothing), over the time in which the level falls from nine to
+// six tenths. Between a sharp edge's pi/(pi + 2) = 0.61 and a rounded one's 0.97. Fewer than 4 particles across resolve nothing.
 Result<CaseResult> runOrificeResolved(const Knobs& knobs) {
   const int slot = 2 * ((3 * knobs.across + 10) / 20);  // rows: 6 of 20
   const int width = 4 * slot;
@@ -85,7 +85,8 @@ Result<CaseResult> runOrificeResolved(const Knobs& knobs) {
   const double beyond = 0.1;  // m: walls reach past the periodic sides
   solid("floor left", {-beyond, -beyond, -thick}, {left, beyond, 0.0});
   solid("floor right", {left + kSlot, -beyond, -thick}, {beyond, beyond, 0.0});
-  scene.tissue.push_back({.name = "wall left", .shape = sph::PlaneShape{.point = Vec3::Zero(), .normal = {1, 0, 0}}, .slip = 1.0});
+  scene.tissue.push_back(
+      {.name = "wall left", .shape = sph::PlaneShape{.point = Vec3::Zero(), .normal = {1, 0, 0}}, .slip = 1.0});
   scene.tissue.push_back(
       {.name = "wall right", .shape = sph::PlaneShape{.point = {width * dx, 0, 0}, .normal = {-1, 0, 0}}, .slip = 1.0});
   addBlock(scene, Vec3::Zero(), {width, side, depth});
@@ -95,9 +96,9 @@ Result<CaseResult> runOrificeResolved(const Knobs& knobs) {
   const double full = static_cast<double>(scene.capacity);
   const double area = kSlot * side * dx;
   picture::Series level{"solver", picture::SeriesStyle::line, {}, {}};
-  double drained_time = 0.0;   // s, in the measured range
-  double potential = 0.0;      // integral of A sqrt(2 g H), m^3
-  double first = 0.0;          // particles in the tank at its start and end
+  double drained_time = 0.0;  // s, in the measured range
+  double potential = 0.0;     // integral of A sqrt(2 g H), m^3
+  double first = 0.0;         // particles in the tank at its start and end
   double last = 0.0;
   double before = 0.0;
   const Status status = world->runFor(0.16, [&] {

@@ -1,4 +1,5 @@
 // Case 12: platelets against closed forms.
+#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 
@@ -31,8 +32,8 @@ sph::WorldDescription still(const Knobs& knobs, double spacing, double diffusivi
 
 }  // namespace
 
-// A step from 1 to 0 at x = 0: P = erfc(x/(2 sqrt(k t)))/2. sqrt(4 k t) is an eighth of the box, far from the other step. L2 of the
-// rows. The exchange of a pair is equal and opposite, so the sum of P stays.
+// A step from 1 to 0 at x = 0: P = erfc(x/(2 sqrt(k t)))/2. sqrt(4 k t) is an eighth of the box, far from the other step. L2 of
+// the rows. The exchange of a pair is equal and opposite, so the sum of P stays.
 Result<CaseResult> runPlateletSpread(const Knobs& knobs) {
   constexpr double kDiffusivity = 1e-6;  // m^2/s
   const int rows = 2 * knobs.across;
@@ -121,8 +122,8 @@ Result<CaseResult> runPlateletActivation(const Knobs& knobs) {
       found.y.push_back(platelet);
     }
     const double half = (*world)->time() - last * (0.5 - platelet) / (before - platelet);
-    result.figures.push_back(compared(fmt::format("t50_speedup_{:.0f}", speedup), half, std::log(99.0) / (kRate * speedup),
-                                      0.02, "s"));
+    result.figures.push_back(
+        compared(fmt::format("t50_speedup_{:.0f}", speedup), half, std::log(99.0) / (kRate * speedup), 0.02, "s"));
     plot.series.push_back(found);
   }
   result.plots.push_back({"platelet_activation", plot});

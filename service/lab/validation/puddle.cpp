@@ -78,8 +78,8 @@ Result<CaseResult> runPuddle(const Knobs& knobs) {
       sum += frame.position(i).z();
       ++count;
     }
-    result.figures.push_back(compared(fmt::format("height_at_{:.0f}_degrees", degrees), 2e3 * sum / count, 1e3 * expected,
-                                      std::nullopt, "mm"));
+    result.figures.push_back(
+        compared(fmt::format("height_at_{:.0f}_degrees", degrees), 2e3 * sum / count, 1e3 * expected, std::nullopt, "mm"));
     picture::Series points{fmt::format("{:.0f} degrees", degrees), picture::SeriesStyle::points, {}, {}};
     for (int column = -2 * wide; column < 2 * wide; ++column) {
       const double height = layerMean(frame, dx, 0, column, [&](std::size_t i) { return 2.0 * frame.position(i).z(); });
@@ -88,7 +88,8 @@ Result<CaseResult> runPuddle(const Knobs& knobs) {
       points.y.push_back(height);
     }
     plot.series.push_back(points);
-    plot.lines.push_back({picture::ReferenceLine::Direction::horizontal, expected, fmt::format("2 l_c sin({:.0f} degrees)", degrees / 2.0)});
+    plot.lines.push_back(
+        {picture::ReferenceLine::Direction::horizontal, expected, fmt::format("2 l_c sin({:.0f} degrees)", degrees / 2.0)});
   }
   result.plots.push_back({"puddle", plot});
   return result;
@@ -112,8 +113,8 @@ Result<CaseResult> runContactAngle(const Knobs& knobs) {
     const double volume = (*world)->particleCount() * scene.particleVolume();
     result.figures.push_back(compared(fmt::format("height_at_{:.0f}_degrees", degrees), 1e3 * height,
                                       1e3 * capMeanHeight(degrees * kDegree, volume), std::nullopt, "mm"));
-    result.figures.push_back(compared(fmt::format("angle_at_{:.0f}_degrees", degrees), capAngle(height, volume), degrees,
-                                      std::nullopt, "degrees"));
+    result.figures.push_back(
+        compared(fmt::format("angle_at_{:.0f}_degrees", degrees), capAngle(height, volume), degrees, std::nullopt, "degrees"));
   }
   return result;
 }

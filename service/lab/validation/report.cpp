@@ -19,10 +19,8 @@ std::string withUnit(double value, const std::string& unit) {
 }
 
 nlohmann::json toJson(const Figure& figure) {
-  nlohmann::json json{{"name", figure.name},
-                      {"value", figure.value},
-                      {"error", figure.error},
-                      {"grade", std::string{gradeName(figure.grade())}}};
+  nlohmann::json json{
+      {"name", figure.name}, {"value", figure.value}, {"error", figure.error}, {"grade", std::string{gradeName(figure.grade())}}};
   if (figure.reference) json["reference"] = *figure.reference;
   if (figure.bound) json["bound"] = *figure.bound;
   if (!figure.unit.empty()) json["unit"] = figure.unit;
@@ -30,8 +28,8 @@ nlohmann::json toJson(const Figure& figure) {
 }
 
 nlohmann::json toJson(const RunCost& cost) {
-  return {{"steps", cost.steps},   {"particles", cost.particles}, {"simulated_s", cost.simulated},
-          {"cpu_s", cost.cpu},     {"wall_s", cost.wall},         {"us_per_particle_step", cost.microseconds()}};
+  return {{"steps", cost.steps}, {"particles", cost.particles}, {"simulated_s", cost.simulated},
+          {"cpu_s", cost.cpu},   {"wall_s", cost.wall},         {"us_per_particle_step", cost.microseconds()}};
 }
 
 std::string numberOf(const ValidationCase& one) { return one.number > 0 ? std::to_string(one.number) : "-"; }
@@ -44,8 +42,8 @@ std::string countsOf(const ValidationRun& run) {
     if (!outcome.status.ok()) ++failed;
     for (const Figure& figure : outcome.result.figures) ++counts[static_cast<std::size_t>(figure.grade())];
   }
-  std::string text = fmt::format("{} figures hold their threshold, {} miss it, {} are reported without one.", counts[0], counts[1],
-                                 counts[2]);
+  std::string text =
+      fmt::format("{} figures hold their threshold, {} miss it, {} are reported without one.", counts[0], counts[1], counts[2]);
   if (failed > 0) text += fmt::format(" {} cases could not be run.", failed);
   return text;
 }
@@ -78,9 +76,12 @@ nlohmann::json toJson(const ValidationRun& run) {
   for (const CaseOutcome& outcome : run.outcomes) {
     nlohmann::json figures = nlohmann::json::array();
     for (const Figure& figure : outcome.result.figures) figures.push_back(toJson(figure));
-    nlohmann::json one{{"name", std::string{outcome.which->name}},     {"number", outcome.which->number},
-                       {"measures", std::string{outcome.which->measures}}, {"reference", std::string{outcome.which->reference}},
-                       {"figures", std::move(figures)},                {"cost", toJson(outcome.result.cost)}};
+    nlohmann::json one{{"name", std::string{outcome.which->name}},
+                       {"number", outcome.which->number},
+                       {"measures", std::string{outcome.which->measures}},
+                       {"reference", std::string{outcome.which->reference}},
+                       {"figures", std::move(figures)},
+                       {"cost", toJson(outcome.result.cost)}};
     if (!outcome.status.ok()) one["failed"] = outcome.status.message();
     if (!outcome.result.notes.empty()) one["notes"] = outcome.result.notes;
     cases.push_back(std::move(one));

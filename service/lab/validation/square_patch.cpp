@@ -1,5 +1,5 @@
-// Case 14: a square of blood, one layer, that turns as a rigid body in empty space (Colagrossi 2005). Its corners grow into arms; no
-// pair force may take angular momentum, but the Brookshaw form of viscosity does, so blood's viscosity acts.
+// Case 14: a square of blood, one layer, that turns as a rigid body in empty space (Colagrossi 2005). Its corners grow into arms;
+// no pair force may take angular momentum, but the Brookshaw form of viscosity does, so blood's viscosity acts.
 #include <cmath>
 
 #include "service/lab/validation/case_world.h"

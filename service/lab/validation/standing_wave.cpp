@@ -7,12 +7,12 @@
 
 namespace bleedsim::lab {
 
-// The flat surface gets the velocity of the mode, amplitude 2.5 mm (k a = 0.16, whose own shift of the period is below 0.5 %). The
-// velocities' part along the mode goes as cos(omega t): from its first zero to the third is one period.
+// The flat surface gets the velocity of the mode, amplitude 2.5 mm (k a = 0.16, whose own shift of the period is below 0.5 %).
+// The velocities' part along the mode goes as cos(omega t): from its first zero to the third is one period.
 Result<CaseResult> runStandingWave(const Knobs& knobs) {
-  constexpr double kLength = 0.10;     // m
-  constexpr double kDepth = 0.05;      // m
-  constexpr double kHeight = 0.0025;   // m
+  constexpr double kLength = 0.10;    // m
+  constexpr double kDepth = 0.05;     // m
+  constexpr double kHeight = 0.0025;  // m
   const double k = 2.0 * std::numbers::pi / kLength;
   const double omega = std::sqrt(kGravity * k * std::tanh(k * kDepth));
   const double expected = 2.0 * std::numbers::pi / omega;

@@ -60,8 +60,8 @@ Status follow(CaseWorld& world, const std::array<Moment, 4>& moments, const Knob
     if (Status status = world.runFor(moment.time - world->time()); !status.ok()) return status;
     const std::vector<double> rows = rows_at();
     const Profile profile = [&](double z) { return exact(z, world->time()); };
-    result.figures.push_back(residual(fmt::format("l2_at_{}_s", moment.suffix), profileError(rows, dx, profile),
-                                      knobs.bound(0.03, 0.01)));
+    result.figures.push_back(
+        residual(fmt::format("l2_at_{}_s", moment.suffix), profileError(rows, dx, profile), knobs.bound(0.03, 0.01)));
     result.figures.push_back(
         compared(fmt::format("middle_at_{}_s", moment.suffix), middleOf(rows), moment.morris, knobs.bound(0.03, 0.01), "m/s"));
     addProfile(plot, fmt::format("{} s", moment.time), rows, dx, profile);

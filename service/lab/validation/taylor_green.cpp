@@ -1,5 +1,6 @@
 // Case 8: Taylor-Green vortices at Re = 100: u = U (sin x cos y, -cos x sin y) e^{-2 nu k^2 t}, k = 2 pi/L. A background pressure
 // p0 = rho U^2 keeps the clamp p >= 0 from cutting the vortices' low pressures.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -45,8 +46,7 @@ Result<CaseResult> runTaylorGreen(const Knobs& knobs) {
   const sph::WorldStats end = world->stats();
   const double rate = std::log(middle.kinetic_energy / end.kinetic_energy) / (end.time - middle.time);
   result.figures.push_back(compared("decay_rate", rate, expected, knobs.bound(0.10, 0.04), "1/s"));
-  result.figures.push_back(
-      compared("energy_at_end", end.kinetic_energy / start, std::exp(-expected * end.time), std::nullopt));
+  result.figures.push_back(compared("energy_at_end", end.kinetic_energy / start, std::exp(-expected * end.time), std::nullopt));
   picture::LinePlot plot;
   plot.title = "Taylor-Green vortices, Re = 100";
   plot.x.label = "t U/L";

@@ -1,7 +1,8 @@
-// The implicit solve where the explicit limit would rule the time step: steady flow between planes L apart, u = rho F/(2 mu) z (L -
-// z); mu = 10 Pa s, L = 12 mm, F = 100 m/s^2 give 0.19 m/s in the middle after a few L^2/nu = 15 ms. The central form depends on
-// direction where particles stand in rows, as they do in a channel: an axis-aligned shear of a lattice needs 1.78 / 1.22 / 1.11
-// times the viscosity at h = 2 / 2.5 / 3 dx (physics.md section 2).
+// The implicit solve where the explicit limit would rule the time step: steady flow between planes L apart, u = rho F/(2 mu) z (L
+// - z); mu = 10 Pa s, L = 12 mm, F = 100 m/s^2 give 0.19 m/s in the middle after a few L^2/nu = 15 ms. The central form depends
+// on direction where particles stand in rows, as they do in a channel: an axis-aligned shear of a lattice needs 1.78 / 1.22
+// / 1.11 times the viscosity at h = 2 / 2.5 / 3 dx (physics.md section 2).
+#include <algorithm>
 #include <cmath>
 
 #include "service/lab/validation/cases.h"
@@ -10,9 +11,9 @@
 namespace bleedsim::lab {
 
 Result<CaseResult> runThickBlood(const Knobs& knobs) {
-  constexpr double kViscosity = 10.0;  // Pa s
-  constexpr double kForce = 100.0;     // m/s^2
-  constexpr double kLength = 0.012;    // m
+  constexpr double kViscosity = 10.0;           // Pa s
+  constexpr double kForce = 100.0;              // m/s^2
+  constexpr double kLength = 0.012;             // m
   const int rows = (3 * knobs.across + 2) / 5;  // 12 of 20
   sph::WorldDescription scene = channelScene(knobs, rows, kLength, true, {kForce, 0, 0}, 0.2);
   scene.fluid_blocks.clear();

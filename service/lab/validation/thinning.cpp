@@ -27,8 +27,8 @@ Result<CaseResult> runPlates(const PlaneFlow& flow, const Knobs& knobs, const st
     if (!world) return world.status();
     if (Status status = world->runFor(2.0); !status.ok()) return status;
     const std::vector<double> speeds = rowSpeeds(**world, knobs.across);
-    result.figures.push_back(
-        residual(start == 1.0 ? "l2" : "l2_from_nine_tenths", profileError(speeds, scene.spacing, exact), knobs.bound(0.05, 0.02)));
+    result.figures.push_back(residual(start == 1.0 ? "l2" : "l2_from_nine_tenths", profileError(speeds, scene.spacing, exact),
+                                      knobs.bound(0.05, 0.02)));
     if (start == 1.0) addProfile(plot, "after 2 s", speeds, scene.spacing, exact);
   }
   result.plots.push_back({name, plot});
@@ -84,7 +84,9 @@ double meanSpeed(const PlaneFlow& flow) {
   return sum / kSteps;
 }
 
-Result<CaseResult> runCasson(const Knobs& knobs) { return runPlates(cassonFlow(), knobs, "casson", "Casson blood between plates"); }
+Result<CaseResult> runCasson(const Knobs& knobs) {
+  return runPlates(cassonFlow(), knobs, "casson", "Casson blood between plates");
+}
 Result<CaseResult> runCarreau(const Knobs& knobs) {
   return runPlates(carreauFlow(), knobs, "carreau", "Carreau blood between plates");
 }

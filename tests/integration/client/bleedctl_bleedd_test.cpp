@@ -95,7 +95,8 @@ TEST_F(BleedctlBleeddTest, ListStatusAndWatchShowTheSession) {
     EXPECT_GT(number(member(figures, "stage_costs_us"), "force"), 0.0);
   }
   EXPECT_EQ(count, 3);
-  EXPECT_THAT(bleedctl({"watch", "--count", "1"}).output, AllOf(HasSubstr("density +"), HasSubstr("steps of"), HasSubstr("force ")));
+  EXPECT_THAT(bleedctl({"watch", "--count", "1"}).output,
+              AllOf(HasSubstr("density +"), HasSubstr("steps of"), HasSubstr("force ")));
 }
 
 TEST_F(BleedctlBleeddTest, WhatWentWrongIsCountedAndShown) {

@@ -1,10 +1,9 @@
 // The choice of a resolution: the search by models that are known exactly, and what a model says of a scene.
-#include "service/lab/choose/chooser.h"
-
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "service/lab/choose/chooser.h"
 #include "service/scene/change_resolution.h"
 
 namespace bleedsim::lab {

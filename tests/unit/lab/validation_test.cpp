@@ -127,7 +127,8 @@ TEST(Report, TellsEveryFigureAndWhatFailed) {
   const std::string table = tableOf(someRun());
   EXPECT_THAT(table, HasSubstr("| 13 incline | flow | 0.9 m^2/s | 1 m^2/s | 10.00 % | 8.00 % | misses |"));
   EXPECT_THAT(table, HasSubstr("| 14 puddle | | | | | | could not be run: it burst |"));
-  EXPECT_THAT(table, HasSubstr("1 figures hold their threshold, 1 miss it, 0 are reported without one. 1 cases could not be run."));
+  EXPECT_THAT(table,
+              HasSubstr("1 figures hold their threshold, 1 miss it, 0 are reported without one. 1 cases could not be run."));
   const nlohmann::json json = toJson(someRun());
   EXPECT_EQ(json["cases"][0]["figures"][0]["grade"], "misses");
   EXPECT_EQ(json["cases"][1]["failed"], "it burst");

@@ -41,9 +41,7 @@ TEST_P(CaseTest, keepsItsBounds) {
     for (const Promise& promise : GetParam().promises) {
       if (figure.name == promise.figure) bound = promise.error;
     }
-    if (bound) {
-      EXPECT_LE(figure.error, *bound) << figure.name << " is " << figure.value;
-    }
+    if (bound) { EXPECT_LE(figure.error, *bound) << figure.name << " is " << figure.value; }
   }
 }
 
@@ -64,14 +62,18 @@ std::vector<Run> runs() {
 
   // Measured at h = 2 / 2.5 dx, the same on every target and in double: 0.73 / 0.89, 0.50 / 0.61, 0.37 / 0.44, 0.34 / 0.38 % and
   // 0.32 / 0.33 % steady, as walls.md has it.
-  const std::vector<Promise> poiseuille{{"l2_at_0_0225_s", 0.0134}, {"l2_at_0_045_s", 0.0091}, {"l2_at_0_1125_s", 0.0066},
-                                        {"l2_at_0_225_s", 0.0057},  {"l2_steady", 0.005}};
+  const std::vector<Promise> poiseuille{{"l2_at_0_0225_s", 0.0134},
+                                        {"l2_at_0_045_s", 0.0091},
+                                        {"l2_at_0_1125_s", 0.0066},
+                                        {"l2_at_0_225_s", 0.0057},
+                                        {"l2_steady", 0.005}};
   add("poiseuilleTwo", "poiseuille", 2.0, 20, poiseuille);
   add("poiseuille", "poiseuille", 2.5, 20, poiseuille);
 
-  // Misses at the first two times. A plane that starts at once leaves a layer thinner than a row: friction at the wall is that of a
-  // row's width at most, so momentum comes later by about dx^2/nu = 2.5 ms. At mid-plane, where the flow then has only 2 and 10 % of
-  // the plane's speed, that is 25 and 7 %; L2 3.1 %. It halves with dx (15, 4 and 1.9 % at 40 across) and is gone at the third time.
+  // Misses at the first two times. A plane that starts at once leaves a layer thinner than a row: friction at the wall is that of
+  // a row's width at most, so momentum comes later by about dx^2/nu = 2.5 ms. At mid-plane, where the flow then has only 2 and 10
+  // % of the plane's speed, that is 25 and 7 %; L2 3.1 %. It halves with dx (15, 4 and 1.9 % at 40 across) and is gone at the
+  // third time.
   const std::vector<Promise> couette{{"l2_at_0_0225_s", 0.035}, {"middle_at_0_0225_s", 0.28}, {"middle_at_0_045_s", 0.08}};
   add("couetteTwo", "couette", 2.0, 20, couette);
   add("couette", "couette", 2.5, 20, couette);
@@ -82,17 +84,17 @@ std::vector<Run> runs() {
   add("casson", "casson", 2.5, 20, {{"l2", 0.01}});
   add("carreau", "carreau", 2.5, 20, {{"l2", 0.01}});
 
-  // Misses: 32 % at h = 2.5 dx, 14 % at 3 dx (7 to 10 % at 3 dx with 40 across). Disorder of the particles acts like viscosity, and
-  // shrinks with h/dx and dx; a larger background pressure feeds it (60 % at 4 rho U^2, h = 2.5 dx).
+  // Misses: 32 % at h = 2.5 dx, 14 % at 3 dx (7 to 10 % at 3 dx with 40 across). Disorder of the particles acts like viscosity,
+  // and shrinks with h/dx and dx; a larger background pressure feeds it (60 % at 4 rho U^2, h = 2.5 dx).
   add("taylorGreen", "taylor_green", 2.5, 20, {{"decay_rate", 0.40}});
   add("taylorGreenThree", "taylor_green", 3.0, 20, {{"decay_rate", 0.20}});
 
   add("dropPeriod", "drop_period", 2.5, 16);
   add("dropPeriodThree", "drop_period", 3.0, 16);
   // R = 5, 8 and 12 dx. At h = 3 dx the radial balance misses 5 %: the packed outermost centres stand 0.85 dx inside R and the
-  // formula gives their force the weight (R/r)^2, 1.25 at 8 dx. With all of it on the surface it is 0.92 / 0.95 / 0.95; what the drop
-  // really has, the pressure in its middle, lies between and keeps the 5 %. The lattice ball keeps it but for a radius of less than
-  // two h.
+  // formula gives their force the weight (R/r)^2, 1.25 at 8 dx. With all of it on the surface it is 0.92 / 0.95 / 0.95; what the
+  // drop really has, the pressure in its middle, lies between and keeps the 5 %. The lattice ball keeps it but for a radius of
+  // less than two h.
   add("dropPressureThree5", "drop_pressure", 3.0, 10,
       {{"lattice_balance", 0.16}, {"radial_balance", 0.40}, {"surface_balance", 0.10}, {"core_pressure", 0.05}});
   add("dropPressureThree8", "drop_pressure", 3.0, 16,
@@ -108,8 +110,8 @@ std::vector<Run> runs() {
 
   add("damBreak", "dam_break", 2.5, 20);
   add("orificeLaw", "orifice_law", 2.5, 20);
-  // Misses: Cd = 0.56 with 6 rows across, below the 0.61 of a sharp edge in theory. The outermost rows of the jet stand half a spacing
-  // inside the edge, which with six rows narrows it by some.
+  // Misses: Cd = 0.56 with 6 rows across, below the 0.61 of a sharp edge in theory. The outermost rows of the jet stand half a
+  // spacing inside the edge, which with six rows narrows it by some.
   add("orificeResolved", "orifice_resolved", 2.5, 20, {{"discharge_coefficient", 0.32}});
   add("plateletSpreadTwo", "platelet_spread", 2.0, 20);
   add("plateletSpread", "platelet_spread", 2.5, 20);
@@ -124,9 +126,9 @@ std::vector<Run> runs() {
   add("puddle", "puddle", 2.5, 20, {{"height_at_90_degrees", 0.12}});
   add("squarePatch", "square_patch", 2.5, 20);
 
-  // No threshold either. Mean heights measured: 1.06, 0.92 and 0.81 of the cap's at h = 2.5 dx, 1.10, 0.89 and 0.81 at 3 dx, which
-  // are caps of 33, 83 and 128 and of 34, 80 and 128 degrees: the layer within h of the plane, where the normal turns to the angle,
-  // is a third to half of the drop, and in a beaded drop the overhang next to the plane is thinner than h.
+  // No threshold either. Mean heights measured: 1.06, 0.92 and 0.81 of the cap's at h = 2.5 dx, 1.10, 0.89 and 0.81 at 3 dx,
+  // which are caps of 33, 83 and 128 and of 34, 80 and 128 degrees: the layer within h of the plane, where the normal turns to
+  // the angle, is a third to half of the drop, and in a beaded drop the overhang next to the plane is thinner than h.
   const std::vector<Promise> wetting{
       {"height_at_30_degrees", 0.12}, {"height_at_90_degrees", 0.13}, {"height_at_150_degrees", 0.20}};
   add("contactAngle", "contact_angle", 2.5, 20, wetting);
@@ -139,7 +141,8 @@ std::vector<Run> runs() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(standard, CaseTest, testing::ValuesIn(runs()), [](const auto& tested) { return std::string{tested.param.name}; });
+INSTANTIATE_TEST_SUITE_P(standard, CaseTest, testing::ValuesIn(runs()),
+                         [](const auto& tested) { return std::string{tested.param.name}; });
 
 // A drop that beads stands higher than one that spreads, whatever the angle reads.
 TEST(ContactAngle, OrdersTheHeights) {

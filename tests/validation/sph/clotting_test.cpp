@@ -1,5 +1,5 @@
-// Platelets where there is no closed form, and a clot that holds where blood runs. The forms of physics.md section 5 case 12 are the
-// cases platelet_spread and platelet_activation (cases_test.cpp).
+// Platelets where there is no closed form, and a clot that holds where blood runs. The forms of physics.md section 5 case 12 are
+// the cases platelet_spread and platelet_activation (cases_test.cpp).
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>

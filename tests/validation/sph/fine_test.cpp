@@ -1,5 +1,5 @@
-// The cases at the preset `fine`, h = 3 dx and 40 particles across, and the orders of convergence. Minutes each, so these run only
-// when asked for: ctest -C fine -L validation_fine.
+// The cases at the preset `fine`, h = 3 dx and 40 particles across, and the orders of convergence. Minutes each, so these run
+// only when asked for: ctest -C fine -L validation_fine.
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -17,10 +17,10 @@ struct Exception {
 };
 // Where the solver misses a threshold of the design at this preset: what it keeps instead. cases_test.cpp has the reasons.
 constexpr std::array kExceptions{
-    Exception{"taylor_green", "decay_rate", 0.12},        // measured 9.6 %
-    Exception{"couette", "l2_at_0_0225_s", 0.02},         // measured 1.74 %
-    Exception{"couette", "middle_at_0_0225_s", 0.16},     // measured 13.9 %
-    Exception{"couette", "middle_at_0_045_s", 0.045},     // measured 3.9 %
+    Exception{"taylor_green", "decay_rate", 0.12},     // measured 9.6 %
+    Exception{"couette", "l2_at_0_0225_s", 0.02},      // measured 1.74 %
+    Exception{"couette", "middle_at_0_0225_s", 0.16},  // measured 13.9 %
+    Exception{"couette", "middle_at_0_045_s", 0.045},  // measured 3.9 %
 };
 
 class FineTest : public testing::TestWithParam<std::string> {};
@@ -36,9 +36,7 @@ TEST_P(FineTest, keepsItsBounds) {
     for (const Exception& one : kExceptions) {
       if (GetParam() == one.which && figure.name == one.figure) bound = one.error;
     }
-    if (bound) {
-      EXPECT_LE(figure.error, *bound) << figure.name << " is " << figure.value;
-    }
+    if (bound) { EXPECT_LE(figure.error, *bound) << figure.name << " is " << figure.value; }
   }
 }
 

@@ -1,5 +1,5 @@
-// The implicit viscosity solve where the explicit limit would rule the time step: thick blood and clots (physics.md section 2). Its
-// plane flow and its momenta are the cases thick_blood and spinning_blob (cases_test.cpp).
+// The implicit viscosity solve where the explicit limit would rule the time step: thick blood and clots (physics.md section 2).
+// Its plane flow and its momenta are the cases thick_blood and spinning_blob (cases_test.cpp).
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
