@@ -163,6 +163,21 @@ int runStatus(const Context& context) {
   return kDone;
 }
 
+/// "density +0.31 %, 46 steps of 812 us: force 401, density 203, neighbors 88": the error that the speed of sound allows, and
+/// what a step costs, the dearest stages by name.
+std::string costText(const client::FrameStats& stats) {
+  constexpr std::size_t kShown = 3;
+  std::vector<std::pair<std::string, double>> stages = stats.stage_costs_us;
+  double step = 0.0;
+  for (const auto& [name, microseconds] : stages) step += microseconds;
+  std::sort(stages.begin(), stages.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text =
+      fmt::format("density +{:.2f} %, {} steps of {:.0f} us", 100.0 * stats.max_density_error, stats.steps_in_frame, step);
+  for (std::size_t k = 0; k < std::min(kShown, stages.size()); ++k)
+    text += fmt::format("{} {} {:.0f}", k == 0 ? ":" : ",", stages[k].first, stages[k].second);
+  return text;
+}
+
 /// Prints what `watch` sees: figures for new statistics, otherwise the state, at once where none are to be expected.
 class WatchPrinter {
  public:
@@ -205,15 +220,20 @@ class WatchPrinter {
       json.add("state", client::toString(status.state)).add("seq", stats.seq).add("step", stats.step);
       json.add("sim_time_s", stats.sim_time_s).add("real_time_factor", stats.real_time_factor).add("behind_s", stats.behind_s);
       json.add("particles", stats.particles).add("ml_emitted", stats.emitted_ml).add("frames", frames.received);
+      json.add("dt_s", stats.dt_s).add("steps_in_frame", stats.steps_in_frame);
+      json.add("mean_density_error", stats.mean_density_error).add("max_density_error", stats.max_density_error);
+      JsonObject stages;
+      for (const auto& [name, microseconds] : stats.stage_costs_us) stages.add(name, microseconds);
+      json.raw("stage_costs_us", stages.text());
       JsonObject counters;
       for (const auto& [name, value] : stats.fault_counters) counters.add(name, value);
       json.add("gaps", frames.gaps).add("overdue", frames.overdue).add("malformed", frames.malformed);
       fmt::print("{}\n", json.raw("fault_counters", counters.text()).text());
       return;
     }
-    printLine(fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time, {:.3f} s behind  {:>8} particles  {:>9.3f} mL  {}{}",
+    printLine(fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time, {:.3f} s behind  {:>8} particles  {:>9.3f} mL  {}{}  {}",
                           client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.behind_s,
-                          stats.particles, stats.emitted_ml, frameText(frames), faultText(stats)));
+                          stats.particles, stats.emitted_ml, frameText(frames), faultText(stats), costText(stats)));
   }
 
   void printState(const client::SessionStatus& status) const {
@@ -265,7 +285,8 @@ void addSessionCommands(CLI::App& app, Context& context) {
   app.add_subcommand("status", "Show a session's state and scene")->callback([&context] {
     context.action = [&context] { return runStatus(context); };
   });
-  CLI::App* watch = app.add_subcommand("watch", "Show time, real-time factor, particles, mL and gaps until Ctrl-C");
+  CLI::App* watch = app.add_subcommand(
+      "watch", "Show time, real-time factor, particles, mL, gaps, density error and the cost of a step until Ctrl-C");
   watch->footer(kWatchText + watch->get_footer());  // what all commands say follows
   const auto count = std::make_shared<std::uint64_t>(0);
   watch->add_option("--count", *count, "End after so many lines; 0: never")

@@ -33,10 +33,23 @@ enum class ServiceCounter {
 };
 
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(ServiceCounter::count)> kServiceCounterNames{
-    "requests",           "requests_refused",   "requests_resent",       "requests_busy",       "requests_stale",
-    "requests_missed",    "instrument_samples", "instruments_malformed", "instruments_dropped", "instruments_refused",
-    "instruments_missed", "instruments_ended",  "journal_lost",          "replies_lost",        "write_failures",
-    "checkpoints_written", "checkpoints_failed"};
+    "requests",
+    "requests_refused",
+    "requests_resent",
+    "requests_busy",
+    "requests_stale",
+    "requests_missed",
+    "instrument_samples",
+    "instruments_malformed",
+    "instruments_dropped",
+    "instruments_refused",
+    "instruments_missed",
+    "instruments_ended",
+    "journal_lost",
+    "replies_lost",
+    "write_failures",
+    "checkpoints_written",
+    "checkpoints_failed"};
 
 class ServiceCounters {
  public:

@@ -7,7 +7,8 @@ namespace bleedsim::lab {
 namespace {
 
 constexpr const char* kFooter =
-    "Progress and messages go to stderr, results to stdout; with --json stdout holds one JSON object and nothing else.\n"
+    "Progress and messages go to stderr, results to stdout; with --json (or --json -) stdout holds one JSON object and nothing "
+    "else.\n"
     "Exit codes: 0 done, 1 the solver failed or a file cannot be written, 2 wrong command line or scene,\n"
     "3 'replay --verify' found a difference, or that the recording cannot be compared.";
 
@@ -39,6 +40,9 @@ int runLab(int argc, const char* const* argv) {
   addHardCasesCommand(app, context);
   addTortureCommand(app, context);
   addReplayCommand(app, context);
+  addValidateCommand(app, context);
+  addAccuracyCommand(app, context);
+  addChooseCommand(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -31,6 +31,9 @@ void addHardCasesCommand(CLI::App& app, Context& context);
 void addPaperCommand(CLI::App& app, Context& context);
 void addReplayCommand(CLI::App& app, Context& context);
 void addTortureCommand(CLI::App& app, Context& context);
+void addValidateCommand(CLI::App& app, Context& context);
+void addAccuracyCommand(CLI::App& app, Context& context);
+void addChooseCommand(CLI::App& app, Context& context);
 
 int runLab(int argc, const char* const* argv);
 

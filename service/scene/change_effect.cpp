@@ -1,6 +1,5 @@
 #include "service/scene/change_effect.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <google/protobuf/descriptor.h>
@@ -8,6 +7,7 @@
 
 #include "service/scene/auto_effects.h"
 #include "service/scene/effect_names.h"
+#include "service/scene/effect_removal.h"
 #include "service/scene/fill_defaults.h"
 #include "service/scene/finish_scene.h"
 #include "service/scene/nearest_name.h"
@@ -24,32 +24,6 @@ Status unknownEffect(const std::string& name) {
     return {StatusCode::not_found, fmt::format("no effect '{}'; did you mean '{}'?", name.substr(0, 32), nearest)};
   }
   return {StatusCode::not_found, fmt::format("no such effect, use {}", fmt::join(known, ", "))};
-}
-
-void dropAttribute(Output& output, Output::Attribute attribute) {
-  std::vector<int> kept;
-  for (const int value : output.attributes()) {
-    if (value != attribute) kept.push_back(value);
-  }
-  output.mutable_attributes()->Assign(kept.begin(), kept.end());
-}
-
-/// What an absent effect would make invalid.
-void dropDependents(Scene& scene) {
-  if (!scene.effects().has_viscosity()) {
-    dropAttribute(*scene.mutable_output(), Output::VISCOSITY);
-    for (FluidBlock& block : *scene.mutable_fluid_blocks()) block.clear_viscosity_pa_s();
-  }
-  if (!scene.effects().has_platelets()) dropAttribute(*scene.mutable_output(), Output::PLATELET);
-  if (!scene.effects().has_core_radius()) dropAttribute(*scene.mutable_output(), Output::RADIUS);
-}
-
-void leaveAuto(const std::string& name, Effects& effects) {
-  std::vector<std::string> kept;
-  for (const std::string& other : effects.auto_()) {
-    if (other != name && !(name == "viscosity" && other == kAutoImplicit)) kept.push_back(other);
-  }
-  effects.mutable_auto_()->Assign(kept.begin(), kept.end());
 }
 
 }  // namespace
@@ -76,8 +50,7 @@ Result<SceneDescription> changeEffect(const SceneDescription& scene, const Effec
     return Status{StatusCode::invalid_argument,
                   fmt::format("effects.{}: settings are for an effect that goes on; leave them out", change.name)};
   } else {
-    reflection.ClearField(&effects, field);
-    dropDependents(message);
+    removeEffect(change.name, message);
   }
   Result<SceneDescription> changed = finishScene(message, problems, session);
   if (!changed) return problems.firstToStatus();

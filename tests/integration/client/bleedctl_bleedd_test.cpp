@@ -107,8 +107,14 @@ TEST_F(BleedctlBleeddTest, ListStatusAndWatchShowTheSession) {
     seq = number(figures, "seq");
     EXPECT_GT(number(figures, "ml_emitted"), 0.0);
     EXPECT_GE(number(figures, "gaps"), 0.0);
+    EXPECT_GT(number(figures, "real_time_factor"), 0.0);
+    EXPECT_GE(number(figures, "max_density_error"), number(figures, "mean_density_error"));
+    EXPECT_GT(number(figures, "steps_in_frame"), 0.0);
+    EXPECT_GT(number(member(figures, "stage_costs_us"), "force"), 0.0);
   }
   EXPECT_EQ(count, 3);
+  EXPECT_THAT(bleedctl({"watch", "--count", "1"}).output,
+              AllOf(HasSubstr("density +"), HasSubstr("steps of"), HasSubstr("force ")));
 }
 
 TEST_F(BleedctlBleeddTest, WhatWentWrongIsCountedAndShown) {

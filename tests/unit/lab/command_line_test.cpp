@@ -22,7 +22,7 @@ Outcome run(std::vector<const char*> arguments) {
 TEST(CommandLine, WithoutACommandItListsThem) {
   const Outcome outcome = run({});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.errors, testing::HasSubstr("effects, paper, hardcases, torture"));
+  EXPECT_THAT(outcome.errors, testing::HasSubstr("effects, paper, hardcases, torture, replay, validate, accuracy, choose"));
 }
 
 TEST(CommandLine, WithoutAnExperimentItListsThem) {
@@ -94,7 +94,27 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"torture_seed", {"torture", "--seed", "-1"}, "--seed"},
         BadLine{"torture_count", {"torture", "--count", "0"}, "--count: Value 0 not in range 1 to 10000000"},
         BadLine{"torture_steps", {"torture", "--steps", "0"}, "--steps: Value 0 not in range 1 to 1000000"},
-        BadLine{"torture_model", {"torture", "--model", "both"}, "sound"}),
+        BadLine{"torture_model", {"torture", "--model", "both"}, "sound"},
+        BadLine{"unknown_case", {"validate", "--case", "gravity"}, "no case 'gravity'; the cases are interpolation, "},
+        BadLine{"unknown_preset", {"validate", "--preset", "coarse"}, "coarse not in {standard,fine}"},
+        BadLine{"across_few", {"validate", "--across", "7"}, "--across: Value 7 not in range 8 to 160"},
+        BadLine{"support_nan", {"validate", "--support", "nan"}, "'nan' is not a number from 1.5 to 3.5"},
+        BadLine{"cfl_unstable", {"validate", "--cfl", "0.5"}, "'0.5' is not a number from 0.01 to 0.4"},
+        BadLine{"mach_low", {"validate", "--mach", "1"}, "'1' is not a number from 5 to 50"},
+        BadLine{"precision", {"validate", "--precision", "half"}, "half not in {float,double}"},
+        BadLine{"double_vectors", {"validate", "--precision", "double", "--simd", "avx2"}, "runs on the scalar target only"},
+        BadLine{"accuracy_case", {"accuracy", "--cases", "nothing"}, "no case 'nothing'"},
+        BadLine{"accuracy_figureless", {"accuracy", "--cases", "free_fall"}, "has no figure to judge accuracy by"},
+        BadLine{"accuracy_knob", {"accuracy", "--knobs", "colour"}, "colour not in {spacing,cfl,mach,support,precision,threads}"},
+        BadLine{"accuracy_minutes", {"accuracy", "--minutes", "0"}, "'0' is not a number from 0.01 to 600"},
+        BadLine{"choose_sceneless", {"choose"}, "--scene is required"},
+        BadLine{"choose_scene", {"choose", "--scene", "/nosuch.textproto"}, "does not exist; give the path of a scene file"},
+        BadLine{"choose_budget", {"choose", "--scene", "a", "--budget-ms", "-1"}, "'-1' is not a number from 0.01 to 100000"},
+        BadLine{"choose_error", {"choose", "--scene", "a", "--error", "2"}, "'2' is not a number from 0.0001 to 1"},
+        BadLine{"choose_literal", {"choose", "--scene", SCENE_DIR "/literal.textproto"}, "the literal model has no accuracy"},
+        BadLine{"choose_results",
+                {"choose", "--scene", SCENE_DIR "/round_wound.textproto", "--results", "/nosuch.json"},
+                "cannot open '/nosuch.json'"}),
     [](const auto& tested) { return std::string{tested.param.name}; });
 
 TEST(CommandLine, AMissingSceneIsNamedWithTheFolder) {
