@@ -7,9 +7,9 @@
 #include "service/lab/accuracy/report.h"
 #include "service/lab/app.h"
 #include "service/lab/case_names.h"
-#include "service/lab/finite_in.h"
 #include "service/lab/lab_files.h"
 #include "service/lab/progress.h"
+#include "service/status/number_text.h"
 
 namespace bleedsim::lab {
 namespace {

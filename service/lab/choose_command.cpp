@@ -12,12 +12,12 @@
 
 #include "service/lab/app.h"
 #include "service/lab/choose/chooser.h"
-#include "service/lab/finite_in.h"
 #include "service/lab/lab_files.h"
 #include "service/lab/machine.h"
 #include "service/lab/progress.h"
 #include "service/scene/change_resolution.h"
 #include "service/scene/feature_size.h"
+#include "service/status/number_text.h"
 
 namespace bleedsim::lab {
 namespace {

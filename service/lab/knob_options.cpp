@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "service/lab/finite_in.h"
+#include "service/status/number_text.h"
 
 namespace bleedsim::lab {
 

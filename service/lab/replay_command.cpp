@@ -10,9 +10,9 @@
 
 #include "service/checkpoint/state_file.h"
 #include "service/lab/app.h"
-#include "service/lab/finite_in.h"
 #include "service/lab/progress.h"
 #include "service/replay/replay.h"
+#include "service/status/number_text.h"
 
 namespace bleedsim::lab {
 namespace {
