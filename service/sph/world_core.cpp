@@ -132,6 +132,7 @@ Status WorldCore<Real>::populate() {
     if (!added) return {added.status().code(), "wound '" + wound.name + "': " + added.status().message()};
   }
   const FlushToZero scope;
+  clock_.start();
   emit(0.0);
   chooseShares();
   // Implicit viscosity is no part of the accelerations, and these are the first ones.
