@@ -66,8 +66,8 @@ DriftResult<Real> drift(const Particles<Real>& p, Real* moved, const Real* accel
   return result;
 }
 
-/// The opening half kick of particle i, if any, into place `to` of another order; a throat gives its particles their velocities, and
-/// frees those that it releases.
+/// The opening half kick of particle i, if any, into place `to` of another order; a throat gives its particles their velocities,
+/// and frees those that it releases.
 template <class Real>
 void kick(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p, std::uint32_t i, const Real* acceleration,
           Real half_dt, const WoundSet& wounds) {
