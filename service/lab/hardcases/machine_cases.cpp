@@ -5,7 +5,6 @@
 
 #include "service/lab/hardcases/case_scene.h"
 #include "service/lab/hardcases/cases.h"
-#include "service/lab/measured.h"
 #include "service/sph/executor.h"
 
 namespace bleedsim::lab {
@@ -42,21 +41,21 @@ std::optional<StageSeconds> timeStages(Trial& trial, int steps) {
   return seconds;
 }
 
-/// A stage's median over the turns, which a busy machine hardly moves.
-double middleOf(const std::vector<StageSeconds>& turns, std::size_t stage) {
-  std::vector<double> seconds;
-  for (const StageSeconds& turn : turns) seconds.push_back(turn[stage]);
-  return medianOf(std::move(seconds)).value;
+/// A stage's time in the turn that others on the machine disturbed least.
+double fastestOf(const std::vector<StageSeconds>& turns, std::size_t stage) {
+  double fastest = turns.front()[stage];
+  for (const StageSeconds& turn : turns) fastest = std::min(fastest, turn[stage]);
+  return fastest;
 }
 
 /// Largest ratio of a stage's time, of the stages that take a hundredth of the step and more.
 double slowestStage(const std::vector<StageSeconds>& denormal, const std::vector<StageSeconds>& ordinary) {
   double whole = 0.0;
-  for (std::size_t k = 0; k < ordinary.front().size(); ++k) whole += middleOf(ordinary, k);
+  for (std::size_t k = 0; k < ordinary.front().size(); ++k) whole += fastestOf(ordinary, k);
   double slowest = 0.0;
   for (std::size_t k = 0; k < ordinary.front().size(); ++k) {
-    const double usual = middleOf(ordinary, k);
-    if (usual > 0.01 * whole) slowest = std::max(slowest, middleOf(denormal, k) / usual);
+    const double usual = fastestOf(ordinary, k);
+    if (usual > 0.01 * whole) slowest = std::max(slowest, fastestOf(denormal, k) / usual);
   }
   return slowest;
 }
@@ -103,11 +102,11 @@ void denormals(CaseRun& run) {
   const auto tiny = run.start(drifting(run.byPrecision(1e-41, 1e-312)));
   const auto ordinary = run.start(drifting(1e-4));
   if (!tiny || !ordinary) return;
-  constexpr int kTurns = 15;
+  constexpr int kTurns = 60;
   std::vector<StageSeconds> slow, usual;
   for (int turn = 0; turn < (run.setup().timed ? kTurns : 3); ++turn) {
-    const auto with = timeStages(*tiny, 20);
-    const auto without = timeStages(*ordinary, 20);
+    const auto with = timeStages(*tiny, 5);
+    const auto without = timeStages(*ordinary, 5);
     if (!with || !without) return;
     slow.push_back(*with);
     usual.push_back(*without);

@@ -93,9 +93,9 @@ void deepColumn(CaseRun& run) {
   run.atMost("largest compression", trial->stats().max_density_error, 0.05);
 }
 
-// At 3 mm and c0 = 0.2 m/s, so that a minute is not out of reach; tension is weaker in proportion to c0^2. Nothing pulls: among all
-// effects gravity and adhesion are on, but zero. Adhesion is an outer force as gravity is: 0.008 m/s^2 of it draw the blood to the
-// walls, and what is left between them below rest density drifts by 0.073 dx, because nothing there pushes back.
+// At 3 mm and c0 = 0.2 m/s, so that a minute is not out of reach; tension is weaker in proportion to c0^2. Nothing pulls: among
+// all effects gravity and adhesion are on, but zero. Adhesion is an outer force as gravity is: 0.008 m/s^2 of it draw the blood
+// to the walls, and what is left between them below rest density drifts by 0.073 dx, because nothing there pushes back.
 void weightlessRest(CaseRun& run) {
   constexpr int kAcross = 4;
   sph::WorldDescription scene = weightlessScene();
