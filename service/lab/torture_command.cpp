@@ -79,7 +79,9 @@ ExitCode run(const Arguments& arguments) {
 void addTortureCommand(CLI::App& app, Context& context) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("torture", "Run random scenes and commands; make small what fails");
-  command->add_option("--seed", arguments->seed, "Of the first scene; the next ones count up from it")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Of the first scene; the next ones count up from it")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--count", arguments->count, "Scenes")->capture_default_str()->check(CLI::Range(1U, 10000000U));
   command->add_option("--steps", arguments->steps, "Steps of each scene")->capture_default_str()->check(CLI::Range(1, 1000000));
   command->add_option("--threads", arguments->threads, "Scenes side by side")->capture_default_str()->check(CLI::Range(1, 64));

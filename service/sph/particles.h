@@ -52,6 +52,11 @@ struct Particles {
     vx[to] = source.vx[from];
     vy[to] = source.vy[from];
     vz[to] = source.vz[from];
+    copyBody(to, source, from);
+  }
+
+  /// All but place and velocity.
+  void copyBody(std::size_t to, const Particles& source, std::size_t from) {
     id[to] = source.id[from];
     driver[to] = source.driver[from];
     if (!inverse_viscosity.empty()) inverse_viscosity[to] = source.inverse_viscosity[from];

@@ -132,6 +132,7 @@ Status WorldCore<Real>::populate() {
     if (!added) return {added.status().code(), "wound '" + wound.name + "': " + added.status().message()};
   }
   const FlushToZero scope;
+  clock_.start();
   emit(0.0);
   chooseShares();
   // Implicit viscosity is no part of the accelerations, and these are the first ones.
@@ -268,12 +269,12 @@ void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds, Real half_kick) 
     }
   });
   count_ = grid_.sort(count_, shares_, *executor_, [&](std::uint32_t from, std::uint32_t to) {
-    sorted_.copyOne(to, particles_, from);
+    sorted_.copyBody(to, particles_, from);
     const Real* position = moved + std::size_t{from} * 4;
     sorted_.x[to] = position[0];
     sorted_.y[to] = position[1];
     sorted_.z[to] = position[2];
-    if (half_kick != Real(0)) kick(sorted_, to, particles_, from, acceleration, half_kick, wounds_);
+    kick(sorted_, to, particles_, from, acceleration, half_kick, wounds_);
     passes_.pack(to, sorted_);
   });
   particles_.swap(sorted_);
@@ -323,9 +324,9 @@ bool WorldCore<Real>::closeKick(double dt) {
   });
   KickResult<Real>& total = kick_results_[0];
   for (int share = 1; share < shares_; ++share) total.merge(kick_results_[static_cast<std::size_t>(share)]);
-  if (!total.finite) return false;
+  if (!total.finite || (solving_viscosity_ && dt > 0.0 && !solveViscosity(dt))) return false;
   max_speed_ = std::sqrt(static_cast<double>(total.max_speed2));
-  return !solving_viscosity_ || !(dt > 0.0) || solveViscosity(dt);
+  return true;
 }
 
 template <class Real>
@@ -359,6 +360,13 @@ bool WorldCore<Real>::solveViscosity(double dt) {
   const SolveOutcome outcome = implicit_viscosity_->solve(dt, grid_, particles_, passes_, count_, shares_, *executor_);
   viscosity_iterations_ = outcome.iterations;
   if (!outcome.converged) ++counter(Counter::viscosity_unsolved);
+  // Viscosity takes from the whole, but along pairs only, so that a particle of a fast body may gain.
+  KickResult<Real> total = kick_results_[0];
+  executor_->run(shares_, [&](int share) {
+    kick_results_[static_cast<std::size_t>(share)] = boundSpeeds(particles_, caps_.speed, ShareRange{count_, share, shares_});
+  });
+  for (int share = 0; share < shares_; ++share) total.merge(kick_results_[static_cast<std::size_t>(share)]);
+  kick_results_[0] = total;
   return outcome.finite;
 }
 

@@ -6,7 +6,6 @@ namespace bleedsim::lab {
 namespace {
 
 using scene::Effects;
-using scene::Scene;
 
 /// Tries smaller plans until none of them fails.
 class Shrinker {

@@ -66,8 +66,8 @@ DriftResult<Real> drift(const Particles<Real>& p, Real* moved, const Real* accel
   return result;
 }
 
-/// The opening half kick of particle i, into place `to` of another order; a throat gives its particles their velocities, and
-/// frees those that it releases.
+/// The opening half kick of particle i, if any, into place `to` of another order; a throat gives its particles their velocities,
+/// and frees those that it releases.
 template <class Real>
 void kick(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p, std::uint32_t i, const Real* acceleration,
           Real half_dt, const WoundSet& wounds) {
@@ -79,7 +79,8 @@ void kick(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p, s
     if (state.phase == InletPhase::released) sorted.driver[to] = 0;
     return;
   }
-  const std::array<Real, 3> velocity = kickedVelocity(p, acceleration, i, half_dt);
+  const std::array<Real, 3> velocity =
+      half_dt != Real(0) ? kickedVelocity(p, acceleration, i, half_dt) : std::array<Real, 3>{p.vx[i], p.vy[i], p.vz[i]};
   sorted.vx[to] = velocity[0];
   sorted.vy[to] = velocity[1];
   sorted.vz[to] = velocity[2];
@@ -117,13 +118,6 @@ struct alignas(64) KickResult {
     frozen += other.frozen;
   }
 };
-
-/// Whether velocity, acceleration and the platelets' rate of particle i are all numbers.
-template <class Real>
-bool isFiniteMotion(const Particles<Real>& p, const Real* a, std::uint32_t i) {
-  return std::isfinite(p.vx[i]) && std::isfinite(p.vy[i]) && std::isfinite(p.vz[i]) && std::isfinite(a[0]) &&
-         std::isfinite(a[1]) && std::isfinite(a[2]) && std::isfinite(a[3]);
-}
 
 /// Scales a vector, whose squared length is `square` > bound^2, to the bound; its square may have overflowed.
 template <class Real>
@@ -171,9 +165,26 @@ KickResult<Real> closingKick(Particles<Real>& p, Real* acceleration, const std::
       v2 = speed_cap2;
       ++result.speed_clamped;
     }
-    result.finite = result.finite && isFiniteMotion(p, a, i);
+    // An acceleration that is no number, or infinite, has made v2 one that is not; a[3] is the platelets' rate.
+    result.finite = result.finite && std::isfinite(v2 + a[3]);
     result.max_speed2 = std::max(result.max_speed2, v2);
     result.max_acceleration2 = std::max(result.max_acceleration2, a2);
+  }
+  return result;
+}
+
+/// Clamps the speeds of free particles that something after the kick has raised.
+template <class Real>
+KickResult<Real> boundSpeeds(Particles<Real>& p, Real cap, ShareRange range) {
+  KickResult<Real> result;
+  for (std::uint32_t i = range.begin; i < range.end; ++i) {
+    Real v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
+    if (v2 > cap * cap && p.driver[i] == 0) {
+      scaleTo(cap, v2, p.vx[i], p.vy[i], p.vz[i]);
+      v2 = cap * cap;
+      ++result.speed_clamped;
+    }
+    result.max_speed2 = std::max(result.max_speed2, v2);
   }
   return result;
 }

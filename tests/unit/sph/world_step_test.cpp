@@ -175,6 +175,16 @@ TEST(WorldStats, AreThoseOfTheFrame) {
   EXPECT_EQ(stats.injected, 210u);
 }
 
+// Stages are timed from creation on, not from whenever the machine was started.
+TEST(WorldStages, TimeIsThatOfThisWorld) {
+  const auto world = test::makeWorld(test::freeBlock({4, 4, 4}));
+  ASSERT_TRUE(world->step(1.0).ok());
+  double sum = 0.0;
+  for (const double seconds : test::statsOf(*world).stage_seconds) sum += seconds;
+  EXPECT_GT(sum, 0.0);
+  EXPECT_LT(sum, 600.0);
+}
+
 TEST(WorldNames, EveryStageAndCounterHasItsOwn) {
   std::vector<std::string_view> names;
   for (int s = 0; s < static_cast<int>(Stage::count); ++s) names.push_back(stageName(static_cast<Stage>(s)));
