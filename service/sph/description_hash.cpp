@@ -34,7 +34,7 @@ class FieldHash {
   template <class... T>
   void addFields(const std::variant<T...>& field) {
     add(field.index());
-    std::visit([this](const auto& held) { add(held); }, field);
+    std::visit([this](const auto& held) { this->add(held); }, field);
   }
   template <class T>
   void addFields(const std::vector<T>& fields) {
