@@ -154,7 +154,7 @@ class Chooser {
       auto fine = calibrate(kFineParticles, support, left_out);
       if (!fine) return fine.status();
       const double mach = scene_.world.compressibility.mach_factor;
-      calibration.compression[support] = fine->mean_density_error * mach * mach;
+      calibration.compression[support] = fine->density_error * mach * mach;
       calibration.time.emplace(support, TimeModel{std::move(*coarse), std::move(*fine)});
     }
     const ErrorModel errors{flow_points_, calibration.compression};
@@ -215,7 +215,7 @@ void Chooser::print() const {
   row("steps in a frame", choice_.time.steps, 1.0 / (measured_.dt * chosen_->frame_rate), "");
   row("time per particle and step", choice_.time.microseconds, measured_.microseconds, "us");
   row(fmt::format("error of a film of {} rows", rows_).c_str(), 100.0 * at_rows_.flow, 100.0 * flow_error_, "%");
-  row("mean compression", 100.0 * choice_.error.compression, 100.0 * measured_.mean_density_error, "%");
+  row("largest compression", 100.0 * choice_.error.compression, 100.0 * measured_.density_error, "%");
 }
 
 nlohmann::json Chooser::toJson() const {
@@ -243,7 +243,7 @@ nlohmann::json Chooser::toJson() const {
             {"steps_per_frame", 1.0 / (measured_.dt * chosen_->frame_rate)},
             {"us_per_particle_step", measured_.microseconds},
             {"flow_error", flow_error_},
-            {"compression", measured_.mean_density_error}}}};
+            {"compression", measured_.density_error}}}};
 }
 
 ExitCode run(const Arguments& arguments) {

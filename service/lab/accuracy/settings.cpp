@@ -39,8 +39,8 @@ std::vector<Knobs> movedBy(const std::string& knob, const Knobs& base) {
 }  // namespace
 
 const std::vector<std::string>& knobNames() {
-  static const std::vector<std::string> names{"spacing", "cfl", "mach", "support", "precision", "threads"};
-  return names;
+  static const std::vector<std::string> kNames{"spacing", "cfl", "mach", "support", "precision", "threads"};
+  return kNames;
 }
 
 std::vector<Setting> settingsOf(const std::vector<const ValidationCase*>& cases, const std::vector<std::string>& knobs) {

@@ -42,9 +42,12 @@ Result<std::vector<FlowPoint>> readFlowPoints(const std::filesystem::path& file)
   if (json.is_discarded() || !json.is_object() || !json.contains("measurements") || !json["measurements"].is_array())
     return damaged(file, "holds no measurements");
   std::vector<FlowPoint> points;
+  const auto text_of = [](const nlohmann::json& row, const char* key) {
+    return row.is_object() && row.contains(key) && row[key].is_string() ? row[key].get<std::string>() : std::string{};
+  };
   for (const nlohmann::json& row : json["measurements"]) {
-    if (!row.is_object() || row.value("case", "") != kFlowCase) continue;
-    const std::string knob = row.value("knob", "");
+    if (text_of(row, "case") != kFlowCase) continue;
+    const std::string knob = text_of(row, "knob");
     if (knob != "base" && knob != "spacing" && knob != "support") continue;
     for (const char* number : {"support_ratio", "across", "error"}) {
       if (!row.contains(number) || !row[number].is_number()) return damaged(file, fmt::format("has a row without {}", number));

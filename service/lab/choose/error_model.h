@@ -1,5 +1,5 @@
 // How wrong a scene is at a resolution: the profile of a film that flows (case incline) by the rows across the scene's narrowest
-// place, error = a rows^-p of measured runs, and the compression, error = k/mach^2 of the scene's own runs.
+// place, error = a rows^-p of measured runs, and the largest compression, k/mach^2 of the scene's own runs.
 #pragma once
 
 #include <filesystem>

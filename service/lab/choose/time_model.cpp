@@ -64,7 +64,7 @@ Result<SceneSample> runScene(const sph::WorldDescription& scene, double horizon,
     particle_steps += static_cast<double>((*world)->stepCount() - steps) * (*world)->particleCount();
     sph::WorldStats stats;
     (*world)->collectStats(stats);
-    density += stats.mean_density_error / kParts;
+    density += stats.max_density_error / kParts;
     sample.max_speed = std::max(sample.max_speed, stats.max_speed);
   }
   const auto steps = static_cast<double>((*world)->stepCount() - steps_before);
@@ -77,7 +77,7 @@ Result<SceneSample> runScene(const sph::WorldDescription& scene, double horizon,
   sample.microseconds = 1e6 * work / particle_steps;
   sample.dt = simulated / steps;
   sample.frame_ms = 1e3 * work / simulated / frame_rate;
-  sample.mean_density_error = density;
+  sample.density_error = density;
   sample.wall_s = wallSeconds() - begin;
   return sample;
 }

@@ -20,8 +20,8 @@ struct SceneSample {
   double dt = 0.0;              ///< mean step, s
   double max_speed = 0.0;       ///< m/s
   double frame_ms = 0.0;        ///< mean cost of a frame
-  double mean_density_error = 0.0;
-  double wall_s = 0.0;  ///< that the whole run took
+  double density_error = 0.0;   ///< the largest in the scene, mean over samples
+  double wall_s = 0.0;          ///< that the whole run took
 };
 
 /// Runs the scene for `horizon` s and measures its last tenth.

@@ -42,7 +42,7 @@ void addBlock(sph::WorldDescription& scene, const sph::Vec3& lower, const Counts
   scene.fluid_blocks.push_back(block);
 }
 
-void addParticle(sph::WorldDescription& scene, const sph::Vec3& at, const sph::Vec3& velocity) {
+void addLoneParticle(sph::WorldDescription& scene, const sph::Vec3& at, const sph::Vec3& velocity) {
   addBlock(scene, at - sph::Vec3::Constant(0.5 * scene.spacing), {1, 1, 1}, velocity);
 }
 

@@ -22,7 +22,7 @@ sph::WorldDescription weightlessScene();
 
 void addBlock(sph::WorldDescription& scene, const sph::Vec3& lower, const Counts& counts,
               const sph::Vec3& velocity = sph::Vec3::Zero());
-void addParticle(sph::WorldDescription& scene, const sph::Vec3& at, const sph::Vec3& velocity = sph::Vec3::Zero());
+void addLoneParticle(sph::WorldDescription& scene, const sph::Vec3& at, const sph::Vec3& velocity = sph::Vec3::Zero());
 /// Tissue around (0, 0, 0) to `counts` spacings; the domain reaches 20 spacings further.
 void addBox(sph::WorldDescription& scene, const Counts& counts, bool open_top = false);
 void addPlane(sph::WorldDescription& scene, const sph::Vec3& point, const sph::Vec3& normal);

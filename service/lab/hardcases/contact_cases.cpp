@@ -29,7 +29,7 @@ sph::WorldDescription pairOnASpot(bool in_blood) {
   // Two in the air have less than rest density, so only repulsion parts them.
   if (!in_blood) scene.effects.repulsion.emplace();
   if (in_blood) addBlock(scene, sph::Vec3::Constant(-3.0 * kCaseSpacing), {6, 6, 6});
-  for (int k = in_blood ? 1 : 0; k < 2; ++k) addParticle(scene, spot);
+  for (int k = in_blood ? 1 : 0; k < 2; ++k) addLoneParticle(scene, spot);
   return scene;
 }
 
@@ -94,7 +94,7 @@ void fiveThousandInACell(CaseRun& run) {
   Dice dice{2};
   const double cell = scene.supportRadius();
   for (int k = 0; k < kMany; ++k) {
-    addParticle(scene, dice.within(sph::Vec3::Constant(0.001 * cell), sph::Vec3::Constant(0.999 * cell)));
+    addLoneParticle(scene, dice.within(sph::Vec3::Constant(0.001 * cell), sph::Vec3::Constant(0.999 * cell)));
   }
   const auto trial = run.start(scene);
   if (!trial) return;

@@ -19,7 +19,7 @@ sph::WorldDescription swirl(double viscosity) {
   for (int k = 0; k < kAcross * kAcross * kAcross; ++k) {
     const sph::Vec3 at = kCaseSpacing * sph::Vec3{k % kAcross + 0.5, k / kAcross % kAcross + 0.5, k / kAcross / kAcross + 0.5} +
                          dice.within(sph::Vec3::Constant(-0.2 * kCaseSpacing), sph::Vec3::Constant(0.2 * kCaseSpacing));
-    addParticle(scene, at, 0.2 * sph::Vec3{std::sin(900.0 * at.y()), std::sin(700.0 * at.z()), std::sin(1100.0 * at.x())});
+    addLoneParticle(scene, at, 0.2 * sph::Vec3{std::sin(900.0 * at.y()), std::sin(700.0 * at.z()), std::sin(1100.0 * at.x())});
   }
   return scene;
 }
@@ -57,8 +57,8 @@ void checkerboard(CaseRun& run) {
     const int x = k % kSide;
     const int y = k / kSide % kSide;
     const int z = k / kSide / kSide;
-    addParticle(scene, kCaseSpacing * sph::Vec3{x + 0.5, y + 0.5, z + 0.5},
-                dice.within(sph::Vec3::Constant(-0.1), sph::Vec3::Constant(0.1)));
+    addLoneParticle(scene, kCaseSpacing * sph::Vec3{x + 0.5, y + 0.5, z + 0.5},
+                    dice.within(sph::Vec3::Constant(-0.1), sph::Vec3::Constant(0.1)));
     scene.fluid_blocks.back().viscosity = (x + y + z) % 2 == 0 ? 0.004 : 10.0;
   }
   const auto trial = run.start(scene);

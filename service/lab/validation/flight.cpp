@@ -1,5 +1,4 @@
 // Case 2: what no pair force may change. Both precisions, whatever the knobs say.
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <string>
@@ -35,6 +34,10 @@ double momentumScale(const sph::World& world) {
   return world.particleMass() * sum;
 }
 
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
+}
+
 /// Sum of m x cross v and of its magnitudes, kg m^2/s.
 struct AngularMomentum {
   Vec3 sum = Vec3::Zero();
@@ -44,7 +47,7 @@ AngularMomentum angularMomentum(const sph::World& world) {
   const Frame frame = frameOf(world);
   AngularMomentum whole;
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    const Vec3 own = world.particleMass() * frame.position(i).cross(frame.velocity(i));
+    const Vec3 own = world.particleMass() * cross(frame.position(i), frame.velocity(i));
     whole.sum += own;
     whole.scale += own.norm();
   }

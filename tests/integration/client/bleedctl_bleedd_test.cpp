@@ -114,7 +114,7 @@ TEST_F(BleedctlBleeddTest, ListStatusAndWatchShowTheSession) {
   }
   EXPECT_EQ(count, 3);
   EXPECT_THAT(bleedctl({"watch", "--count", "1"}).output,
-              AllOf(HasSubstr("density +"), HasSubstr("steps of"), HasSubstr("force ")));
+              AllOf(HasSubstr("density +"), HasSubstr("steps of"), HasSubstr(" us: ")));
 }
 
 TEST_F(BleedctlBleeddTest, WhatWentWrongIsCountedAndShown) {

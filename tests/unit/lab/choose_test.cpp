@@ -70,7 +70,7 @@ TEST(Choose, RefusesWithTheFigureThatDecides) {
   EXPECT_EQ(time.status().code(), StatusCode::capacity);
   EXPECT_THAT(time.status().message(), testing::AllOf(HasSubstr("nothing fits 5 ms"), HasSubstr("8 ms a frame"),
                                                       HasSubstr("dx = 0.50 mm"), HasSubstr("raise --budget-ms")));
-  const auto both = choose(simpleModels(), {0.5, 0.02, 0.01});
+  const auto both = choose(simpleModels(), {0.2, 0.02, 0.01});
   ASSERT_FALSE(both.ok());
   EXPECT_THAT(both.status().message(),
               testing::AllOf(HasSubstr("the cheapest setting that keeps an error of 2 %"), HasSubstr("--error")));
