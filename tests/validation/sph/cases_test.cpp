@@ -72,8 +72,8 @@ std::vector<Run> runs() {
 
   // Misses at the first two times. A plane that starts at once leaves a layer thinner than a row: friction at the wall is that of
   // a row's width at most, so momentum comes later by about dx^2/nu = 2.5 ms. At mid-plane, where the flow then has only 2 and 10
-  // % of the plane's speed, that is 25 and 7 %; L2 3.1 %. It halves with dx (15, 4 and 1.9 % at 40 across) and is gone at the
-  // third time.
+  // % of the plane's speed, that is 25 and 7 %; L2 3.1 %. It falls to six tenths with half of dx (15, 4 and 1.9 % at 40 across)
+  // and is gone at the third time.
   const std::vector<Promise> couette{{"l2_at_0_0225_s", 0.035}, {"middle_at_0_0225_s", 0.28}, {"middle_at_0_045_s", 0.08}};
   add("couetteTwo", "couette", 2.0, 20, couette);
   add("couette", "couette", 2.5, 20, couette);
