@@ -84,7 +84,7 @@ dds::Reply LiveRun::ask(const Result<client::RequestPointer>& request) {
   Result<std::string> wound_name = dds::decodeWoundName(wire.body);
   EXPECT_TRUE(action.ok() && wound_name.ok());
   EXPECT_TRUE(channels_.commands.tryPush(dds::DecodedRequest{dds::requestKey(wire), std::move(*action), std::move(*wound_name),
-                                                             kWriter, 0, std::make_unique<dds::RequestCopy>(wire)}));
+                                                             kWriter, kWriter, 0, std::make_unique<dds::RequestCopy>(wire)}));
   dds::Reply reply;
   for (;;) {
     tick();
