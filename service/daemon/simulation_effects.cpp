@@ -17,7 +17,7 @@ Status Simulation::startSwitching(const dds::SetEffect& set) {
   if (pending_load_) return {StatusCode::wrong_state, "a scene is being loaded: wait for its reply"};
   if (pending_switch_) return switchingNow();
   if (faulted_) return {StatusCode::wrong_state, "the solver has stopped on bad numbers: reset or load a scene first"};
-  pending_switch_.emplace().narrowest_wound = narrowest_wound_;
+  pending_switch_ = PendingSwitch{{}, narrowest_wound_};
   loader_.start(
       {{},
        scene_,

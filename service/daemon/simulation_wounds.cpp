@@ -43,7 +43,7 @@ void Simulation::decideForWounds() {
   for (const WaitingWound& waiting : waiting_wounds_) {
     session.narrowest_wound = std::min(session.narrowest_wound, waiting.wound.width);
   }
-  pending_switch_.emplace().narrowest_wound = session.narrowest_wound;
+  pending_switch_ = PendingSwitch{{}, session.narrowest_wound};
   loader_.start({{}, scene_, EffectJob{std::nullopt, session}});
 }
 

@@ -17,7 +17,10 @@ sph::WorldDescription swirl(double viscosity) {
   scene.effects.viscosity->viscosity = viscosity;
   Dice dice{7};
   for (int k = 0; k < kAcross * kAcross * kAcross; ++k) {
-    const sph::Vec3 at = kCaseSpacing * sph::Vec3{k % kAcross + 0.5, k / kAcross % kAcross + 0.5, k / kAcross / kAcross + 0.5} +
+    const int x = k % kAcross;
+    const int y = k / kAcross % kAcross;
+    const int z = k / kAcross / kAcross;
+    const sph::Vec3 at = kCaseSpacing * sph::Vec3{x + 0.5, y + 0.5, z + 0.5} +
                          dice.within(sph::Vec3::Constant(-0.2 * kCaseSpacing), sph::Vec3::Constant(0.2 * kCaseSpacing));
     addLoneParticle(scene, at, 0.2 * sph::Vec3{std::sin(900.0 * at.y()), std::sin(700.0 * at.z()), std::sin(1100.0 * at.x())});
   }
