@@ -96,6 +96,7 @@ void takeStatus(FuzzInput& input) {
   input.takeInto(sample);
   memory.fill(input, 64, sample.counters);
   memory.fill(input, 32, sample.clients);
+  memory.fill(input, 32, sample.checkpoints);
   const client::SessionStatus status = client::fromWire(sample);
   fuzz::require(std::strlen(client::toString(status.state)) > 0, "every state has a name");
   fuzz::require(status.text.size() <= sizeof sample.text, "a text ends with its member");
@@ -132,7 +133,7 @@ void takeJournal(FuzzInput& input) {
   sample.step = input.take<std::uint64_t>();
   sample.sim_time_s = input.take<double>();
   const auto kind = input.take<std::uint8_t>();
-  sample.body._d = kind < 255 ? kind % 6U : input.take<std::uint32_t>();
+  sample.body._d = kind < 255 ? kind % 8U : input.take<std::uint32_t>();
   auto& body = sample.body._u;
   if (sample.body._d == bleed_v1_JOURNAL_REQUEST) {
     body.request.object_id = input.take<std::uint32_t>();

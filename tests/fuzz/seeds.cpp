@@ -165,7 +165,8 @@ void writeSamples(const Folder& folder) {
   dds::copyText("theatre", running.session_name);
   Bytes status;
   addList<bleed_v1_Counter>(status.add(running), {counter});
-  write("status", 2, addList<bleed_v1_ClientActivity>(status, {{{}, 9, 1, 0, 0, 100, 0, 0.1}}));
+  addList<bleed_v1_ClientActivity>(status, {{{}, 9, 1, 0, 0, 100, 0, 0.1}});
+  write("status", 2, addList<bleed_v1_CheckpointInfo>(status, {{"auto-1", 1, 200, 0.5, 30'000, 1'000, 1}}));
   Bytes scene;
   addList<Name>(scene.add(bleed_v1_Scene{}), {Name{"gravity"}});
   addList<Name>(scene, {Name{"gravity"}, Name{"wetting"}});
@@ -184,6 +185,8 @@ void writeSamples(const Folder& folder) {
   effect.enabled = true;
   journal("effect", bleed_v1_JOURNAL_REQUEST, Bytes{}.add(request).add(std::uint8_t{bleed_v1_REQUEST_EFFECT}).add(effect));
   journal("instrument", bleed_v1_JOURNAL_INSTRUMENT, Bytes{}.add(dds::instrumentSample()));
+  journal("restored", bleed_v1_JOURNAL_RESTORED, Bytes{}.add(bleed_v1_Restored{{}, 1, 200, 3, 77, "auto-1"}));
+  journal("switched", bleed_v1_JOURNAL_SWITCHED, Bytes{}.add(bleed_v1_Switched{0.003, 1}));
   journal("decision", bleed_v1_JOURNAL_DECISION, Bytes{}.add(std::string_view{"wetting: off"}));
 }
 

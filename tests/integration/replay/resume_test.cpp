@@ -16,7 +16,6 @@ namespace bleedsim::replay_test {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 /// A run that nobody disturbs: the scene from its beginning, with the wound 'cut' moved after so many steps.
 class UndisturbedRun {
