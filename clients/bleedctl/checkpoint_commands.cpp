@@ -58,8 +58,8 @@ int runCheckpoints(const Context& context) {
   }
   if (status->checkpoints.empty()) fmt::print(stderr, "session '{}' has no checkpoints\n", status->name);
   for (const client::CheckpointInfo& info : status->checkpoints) {
-    fmt::print("{:<24} {:>10.3f} s  step {:>9}  epoch {:>3}  {:>8.1f} MB  {}{}\n", info.name, info.sim_time_s, info.step,
-               info.epoch, static_cast<double>(info.bytes) * 1e-6, timeText(info.realtime_stamp_ns),
+    fmt::print("{:<24} {:>10.3f} s  step {:>9}  epoch {:>3}  {:>8.1f} kB  {}{}\n", info.name, info.sim_time_s, info.step,
+               info.epoch, static_cast<double>(info.bytes) * 1e-3, timeText(info.realtime_stamp_ns),
                info.own ? "" : "  of a daemon before this one");
   }
   return kDone;
