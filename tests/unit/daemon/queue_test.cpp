@@ -41,11 +41,20 @@ TEST(BoundedQueue, KeepsTheOrderBetweenThreads) {
   constexpr int kCount = 50'000;
   BoundedQueue<int> queue{64};
   std::thread writer{[&queue] {
-    for (int i = 0; i < kCount;) i += queue.tryPush(int{i}) ? 1 : 0;
+    for (int i = 0; i < kCount;) {
+      if (queue.tryPush(int{i})) {
+        ++i;
+      } else {
+        std::this_thread::yield();
+      }
+    }
   }};
   int expected = 0;
   for (int value = 0; expected < kCount;) {
-    if (!queue.tryPop(value)) continue;
+    if (!queue.tryPop(value)) {
+      std::this_thread::yield();
+      continue;
+    }
     ASSERT_EQ(value, expected);
     ++expected;
   }
