@@ -8,10 +8,9 @@
 //
 // What starts it:
 // - not_finite: a velocity, an acceleration or the implicit solve is not a finite number.
-// - too_long: the motion at the step's end allows less than half of the time that the step took. dt follows from the motion
-// before
-//   a step; what comes suddenly, a blow or a push, is overrun by a step that was chosen in peace. Its halves meet it at a quarter
-//   of the depth of penetration and more.
+// - too_long: the motion at the step's end allows less than half of the time that the step took. dt follows from the motion at a
+//   step's beginning; what comes suddenly, a blow or a push, is overrun by a step that was chosen in peace. Its halves meet it at
+//   a quarter of the depth of penetration and more.
 // What does not: an acceleration or a speed beyond its bound. Rungs 2 and 3 stand for themselves there, in every step: they are
 // what lets an intruder of 10 c0 or a push of 1 kN live on, shorter steps do not make either of them weaker, and would be tried
 // in vain in every step. The bounds are so far out that a step at both of them allows a quarter of the acoustic limit.
