@@ -20,7 +20,7 @@ struct ReplayOptions {
   sph::SimdTarget simd = sph::SimdTarget::automatic;  ///< automatic: that of the recording
   /// Refuses where bit-equal states are not promised: another build or target, a journal with a gap.
   bool verify = false;
-  std::uint64_t from_step = 0;                           ///< of each epoch: states before it are not compared
+  std::uint64_t from_step = 0;                             ///< of each epoch: states before it are not compared
   std::optional<checkpoint::Checkpoint> checkpoint{};      ///< for an epoch that begins with one that is not in the file
   std::function<void(const RecordedState& state)> seen{};  ///< called for each state that was compared; may wait
   std::function<void(double part)> progress{};             ///< 0 to 1
