@@ -3,14 +3,12 @@
 #include <cmath>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "service/lab/app.h"
-#include "service/lab/effect_costs.h"
+#include "service/lab/cost_plot.h"
 #include "service/lab/progress.h"
-#include "service/picture/plot.h"
 #include "service/scene/scene.h"
 #include "service/status/number_text.h"
 
@@ -123,19 +121,8 @@ void printTable(const EffectCosts& costs, const scene::SceneDescription& scene, 
 }
 
 Status drawChart(const EffectCosts& costs, const std::string& folder) {
-  picture::BarPlot plot;
-  plot.title = "Cost of each effect";
+  picture::BarPlot plot = costPlot(costs, "Cost of each effect", "on alone, against no effect");
   plot.category_label = "effect";
-  plot.y.label = "microseconds per particle and step";
-  picture::BarSeries alone{"on alone, against no effect", {}};
-  picture::BarSeries without{"off alone, saved", {}};
-  for (const EffectCost& effect : costs.effects) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    plot.categories.push_back(effect.name);
-    alone.values.push_back(effect.alone ? effect.alone->microseconds.value : kNone);
-    without.values.push_back(effect.without ? effect.without->microseconds.value : kNone);
-  }
-  plot.series = {alone, without};
   auto files = picture::writePlot(folder, "effects", plot);
   if (!files) return files.status();
   fmt::print(stderr, "wrote {}\n", files->drawn ? files->png.string() : files->csv.string());

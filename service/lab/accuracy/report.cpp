@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "service/lab/cost_plot.h"
 #include "service/lab/lab_files.h"
 
 namespace bleedsim::lab {
@@ -93,22 +93,6 @@ picture::LinePlot knobPlot(const AccuracyResults& results, const std::string& kn
     }
     plot.series.push_back(series);
   }
-  return plot;
-}
-
-picture::BarPlot effectsPlot(const EffectCosts& costs) {
-  picture::BarPlot plot;
-  plot.title = "Cost of each effect, h = 2.5 dx";
-  plot.y.label = "microseconds per particle and step";
-  picture::BarSeries alone{"on alone", {}};
-  picture::BarSeries without{"off alone, saved", {}};
-  for (const EffectCost& effect : costs.effects) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    plot.categories.push_back(effect.name);
-    alone.values.push_back(effect.alone ? effect.alone->microseconds.value : kNone);
-    without.values.push_back(effect.without ? effect.without->microseconds.value : kNone);
-  }
-  plot.series = {alone, without};
   return plot;
 }
 
@@ -241,7 +225,10 @@ Status writeReport(const std::string& folder, const AccuracyResults& results) {
   if (Status s = addPlot(folder, "time_step", knobPlot(results, "cfl", "CFL number", cfl), text); !s.ok()) return s;
   if (Status s = addPlot(folder, "compressibility", knobPlot(results, "mach", "Mach factor", mach), text); !s.ok()) return s;
   if (results.effects) {
-    if (Status s = addPlot(folder, "effects_cost", effectsPlot(*results.effects), text); !s.ok()) return s;
+    if (Status s =
+            addPlot(folder, "effects_cost", costPlot(*results.effects, "Cost of each effect, h = 2.5 dx", "on alone"), text);
+        !s.ok())
+      return s;
   }
   return writeTextFile(folder, "accuracy.md", text);
 }

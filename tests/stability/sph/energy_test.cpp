@@ -17,7 +17,7 @@ constexpr double kSpeed = 0.5;  // m/s, the scene's design speed
 sph::WorldDescription swirl(sph::WorldDescription scene, double support_ratio, double turns) {
   scene.support_ratio = support_ratio;
   scene.effects.viscosity.reset();
-  scene.fluid_blocks = blocksWithFlow(scene.fluid_blocks.front(), kSpacing, 1, [&](const sph::Vec3& at) {
+  setFlow(scene, 1, [&](const sph::Vec3& at) {
     const double x = turns * std::numbers::pi * at.x() / kSide;
     const double z = turns * std::numbers::pi * at.z() / kSide;
     return sph::Vec3{kSpeed * std::sin(x) * std::cos(z), 0.0, -kSpeed * std::cos(x) * std::sin(z)};

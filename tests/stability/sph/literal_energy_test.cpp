@@ -20,7 +20,7 @@ sph::WorldDescription swirl(sph::Model model, sph::PressureForm form, bool walls
   scene.model = model;
   scene.literal.pressure = form;
   scene.effects.viscosity.reset();
-  scene.fluid_blocks = blocksWithFlow(scene.fluid_blocks.front(), kSpacing, 1, [&](const sph::Vec3& at) {
+  setFlow(scene, 1, [&](const sph::Vec3& at) {
     const double x = turns * std::numbers::pi * at.x() / kSide;
     const double z = turns * std::numbers::pi * at.z() / kSide;
     return sph::Vec3{kSpeed * std::sin(x) * std::cos(z), 0.0, -kSpeed * std::cos(x) * std::sin(z)};

@@ -30,7 +30,7 @@ TEST(ImplicitViscosity, neverRaisesTheKineticEnergy) {
   const auto swirl = [](const sph::Vec3& at) -> sph::Vec3 {
     return 0.2 * sph::Vec3{std::sin(900.0 * at.y()), std::sin(700.0 * at.z()), std::sin(1100.0 * at.x())};
   };
-  scene.fluid_blocks = blocksWithFlow(scene.fluid_blocks.front(), kSpacing, 2, swirl);
+  setFlow(scene, 2, swirl);
   const auto world = makeWorld(scene);
   double before = statsOf(*world).kinetic_energy;
   const double start = before;
@@ -52,9 +52,7 @@ TEST(ImplicitViscosity, agreesWithTheExplicitFormInThinBlood) {
     scene.effects.viscosity->solve = solve;
     scene.effects.viscosity->solve_tolerance = 1e-6;
     const double k = 2.0 * std::numbers::pi / 0.016;
-    scene.fluid_blocks = blocksWithFlow(scene.fluid_blocks.front(), kSpacing, 0, [k](const sph::Vec3& at) {
-      return sph::Vec3{0.05 * std::sin(k * at.z()), 0.0, 0.0};
-    });
+    setFlow(scene, 0, [k](const sph::Vec3& at) { return sph::Vec3{0.05 * std::sin(k * at.z()), 0.0, 0.0}; });
     const auto world = makeWorld(scene);
     const double before = statsOf(*world).kinetic_energy;
     runFor(*world, 0.05);
