@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "service/status/checkpoint_name.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/unit/checkpoint/sample_checkpoint.h"
 
 namespace bleedsim::checkpoint {
@@ -36,7 +37,7 @@ class FolderTest : public testing::Test {
   }
   std::filesystem::path file(const std::string& name) const { return folder_->path() / (name + ".bleedstate"); }
 
-  ScratchFolder scratch_;
+  test::TemporaryFolder scratch_;
   Checkpoint checkpoint_ = sampleCheckpoint(3);
   std::optional<Folder> folder_;
 };
@@ -62,7 +63,7 @@ TEST_F(FolderTest, GoesOnCountingWhereAnotherProcessEnded) {
   writeAll(file("auto-00000004"), "bad");
   open();
   EXPECT_EQ(write(""), "auto-00000005");
-  EXPECT_EQ(readAll(file("auto-00000004")), "bad");
+  EXPECT_EQ(test::contentOf(file("auto-00000004")), "bad");
 }
 
 TEST_F(FolderTest, ReadsByNameAndTellsWhich) {
@@ -71,7 +72,7 @@ TEST_F(FolderTest, ReadsByNameAndTellsWhich) {
   ASSERT_TRUE(read.ok()) << read.status().message();
   EXPECT_EQ(read->state, checkpoint_.state);
   EXPECT_EQ(folder_->read("none").status().message(), "there is no checkpoint 'none'");
-  std::string bytes = readAll(file("good"));
+  std::string bytes = test::contentOf(file("good"));
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
   writeAll(file("good"), bytes);
   EXPECT_EQ(folder_->read("good").status().message(), "checkpoint 'good': its state is damaged: the checksum is another");

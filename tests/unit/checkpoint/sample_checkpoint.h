@@ -1,13 +1,11 @@
-// A checkpoint of a small world, and files that are gone after the test.
+// A checkpoint of a small world.
 #pragma once
 
 #include <filesystem>
 #include <fstream>
-#include <gtest/gtest.h>
-#include <iterator>
+#include <span>
 #include <stdexcept>
 #include <string>
-#include <unistd.h>
 
 #include "service/build/build_info.h"
 #include "service/checkpoint/checkpoint.h"
@@ -16,30 +14,6 @@
 
 namespace bleedsim::checkpoint {
 
-class ScratchFolder {
- public:
-  ScratchFolder()
-      : path_{std::filesystem::path{testing::TempDir()} / "bleedsim_checkpoint" / std::to_string(::getpid()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name()} {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~ScratchFolder() {
-    std::filesystem::permissions(path_, std::filesystem::perms::owner_all);
-    std::filesystem::remove_all(path_);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline std::string readAll(const std::filesystem::path& path) {
-  std::ifstream in{path, std::ios::binary};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
 inline void writeAll(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream{path, std::ios::binary}.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }

@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include "service/checkpoint/rebuild.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/unit/checkpoint/sample_checkpoint.h"
 
 namespace bleedsim::checkpoint {
@@ -59,7 +60,7 @@ std::string resealed(std::string file) {
 }
 
 TEST(StateFile, IsReadAsItWasWritten) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const Checkpoint checkpoint = sampleCheckpoint();
   const std::filesystem::path path = folder.path() / "sample.bleedstate";
   ASSERT_TRUE(writeCheckpoint(path, checkpoint.head, checkpoint.state).ok());
@@ -70,7 +71,7 @@ TEST(StateFile, IsReadAsItWasWritten) {
   const Result<Head> head = readHead(path);
   ASSERT_TRUE(head.ok());
   expectSame(*head, checkpoint.head);
-  EXPECT_EQ(readAll(path), encodeCheckpoint(checkpoint.head, checkpoint.state));
+  EXPECT_EQ(test::contentOf(path), encodeCheckpoint(checkpoint.head, checkpoint.state));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "sample.bleedstate.part"));
 }
 
@@ -131,7 +132,7 @@ TEST(StateFile, NoBitMayBeWrong) {
 }
 
 TEST(StateFile, SaysWhyItCannotBeReadOrWritten) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_EQ(readCheckpoint(folder.path() / "none").status().code(), StatusCode::not_found);
   EXPECT_THAT(readCheckpoint(folder.path()).status().message(), HasSubstr("no regular file"));
   const Checkpoint checkpoint = sampleCheckpoint(1);
@@ -141,15 +142,15 @@ TEST(StateFile, SaysWhyItCannotBeReadOrWritten) {
 }
 
 TEST(StateFile, AFailedWriteLeavesTheFormerFile) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const Checkpoint checkpoint = sampleCheckpoint(1);
   const std::filesystem::path path = folder.path() / "sample.bleedstate";
   ASSERT_TRUE(writeCheckpoint(path, checkpoint.head, checkpoint.state).ok());
-  const std::string before = readAll(path);
+  const std::string before = test::contentOf(path);
   // Where the unfinished file would be, nothing can be written.
   std::filesystem::create_directory(folder.path() / "sample.bleedstate.part");
   EXPECT_FALSE(writeCheckpoint(path, sampleCheckpoint(5).head, checkpoint.state).ok());
-  EXPECT_EQ(readAll(path), before);
+  EXPECT_EQ(test::contentOf(path), before);
 }
 
 class Rebuild : public testing::Test {

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "service/build/build_info.h"
 #include "service/dds/decode.h"
@@ -14,14 +13,6 @@ constexpr std::uint64_t kWriter = 5;
 constexpr dds::Uuid kClient{9};
 
 }  // namespace
-
-ScratchFolder::ScratchFolder()
-    : path_{std::filesystem::path{testing::TempDir()} /
-            fmt::format("bleedsim_replay_{}_{}", ::getpid(), testing::UnitTest::GetInstance()->current_test_info()->name())} {
-  std::filesystem::remove_all(path_);
-  std::filesystem::create_directories(path_);
-}
-ScratchFolder::~ScratchFolder() { std::filesystem::remove_all(path_); }
 
 std::string liveScene(const std::string& effects) {
   return "name: 'live'\n"
@@ -110,6 +101,10 @@ void LiveRun::pushTool(std::uint32_t tool, double force_x) {
 }
 
 void LiveRun::loseTools() { ASSERT_TRUE(channels_.commands.tryPush(daemon::WriterLost{kWriter})); }
+
+void LiveRun::awaitCheckpoints(std::uint64_t count) {
+  while (channels_.counters.value(daemon::ServiceCounter::checkpoints_written) < count) tick();
+}
 
 void LiveRun::record() {
   if (const auto scene = channels_.board.takeScene()) { ASSERT_TRUE(writer_->append(scene_encoder_->encode(*scene), 1).ok()); }

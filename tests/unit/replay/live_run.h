@@ -17,19 +17,6 @@
 
 namespace bleedsim::replay {
 
-/// A folder that is gone after the test.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// A wound in flat tissue with every kind of input possible; `effects` beside gravity, pressure, viscosity and applied force.
 std::string liveScene(const std::string& effects = {});
 
@@ -54,6 +41,8 @@ class LiveRun {
   dds::Reply ask(const Result<client::RequestPointer>& request);
   void pushTool(std::uint32_t tool, double force_x);
   void loseTools();
+  /// Ticks until so many checkpoints are on the disk, however slow it is.
+  void awaitCheckpoints(std::uint64_t count);
 
   /// Ends the recording.
   void close();

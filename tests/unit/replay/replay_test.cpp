@@ -9,6 +9,7 @@
 #include "service/checkpoint/state_file.h"
 #include "service/recording/convert.h"
 #include "service/recording/recording_reader.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/unit/replay/live_run.h"
 
 namespace bleedsim::replay {
@@ -78,7 +79,7 @@ class Replay : public testing::Test {
     run.steps(20);
   }
 
-  ScratchFolder scratch_;
+  test::TemporaryFolder scratch_;
   std::shared_ptr<checkpoint::Folder> checkpoints_;
 };
 
@@ -258,6 +259,7 @@ TEST_F(Replay, AGapInTheJournalIsNoticed) {
 TEST_F(Replay, ChecksEveryStateOnlyAfterItsInputs) {
   LiveRun live{liveScene(), file(), checkpoints_, {.checkpoint_every = 0.01}};
   disturb(live);
+  live.awaitCheckpoints(2);
   live.close();
   std::vector<std::uint64_t> seen;
   ReplayOptions options{.verify = true};
