@@ -49,8 +49,9 @@ class UndisturbedRun {
 
 class Resume : public ReplayFixture {
  protected:
+  /// Slow, so that an undisturbed run can follow, however the program was built.
   std::vector<std::string> options(std::vector<std::string> more = {}) const {
-    more.insert(more.end(), {"--pace", "max", "--checkpoint-every", "0.01", "--checkpoint-dir", checkpointDir(), "--resume"});
+    more.insert(more.end(), {"--pace", "0.05", "--checkpoint-every", "0.01", "--checkpoint-dir", checkpointDir(), "--resume"});
     return more;
   }
   std::filesystem::path fileOf(const std::string& name) const {
