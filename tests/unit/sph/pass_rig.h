@@ -58,7 +58,7 @@ class PassRig : public test::ParticleRig<Real> {
     if (literal_) {
       literal_->add(this->grid_, this->sorted_, passes, this->count_, this->shares_, *this->executor_);
     } else {
-      passes.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true);
+      passes.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true, true);
     }
     acceleration_ = this->vectorsOf(passes.acceleration());
     density_.resize(this->count_);
