@@ -15,9 +15,6 @@ namespace {
 // The implicit solve stays on until the explicit limit has left the others this far behind: it must not flicker.
 constexpr double kImplicitBand = 1.2;
 
-// Clotting takes minutes, a step less than a millisecond: it is advanced every so many steps, by all their time.
-constexpr std::uint64_t kClottingSteps = 8;
-
 // How often particles on one spot are looked for. They come of bad seeding and of corners, so a few steps more do no harm.
 constexpr std::uint64_t kCoincidenceSteps = 32;
 

@@ -173,6 +173,7 @@ Status WorldCore<Real>::checkScalars(const SavedScalars& saved) const {
       std::isnan(saved.repulsion_start) || !(saved.viscous_limit > 0.0)) {
     return damaged("a limit of the time step is not a number");
   }
+  if (saved.clotting_step > saved.steps + kClottingSteps) return damaged("the clotting is due too late");
   const double largest = std::max(1.0, radiusBounds(description_).largest);
   if (!(saved.reach >= 1.0) || static_cast<Real>(saved.reach) > static_cast<Real>(largest)) {
     return damaged("the reach of the neighbour search is out of its bounds");

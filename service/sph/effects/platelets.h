@@ -29,6 +29,9 @@
 
 namespace bleedsim::sph {
 
+/// Clotting takes minutes, a step less than a millisecond: it is advanced every so many steps, by all their time.
+constexpr std::uint64_t kClottingSteps = 8;
+
 /// invalid_argument with the value and what is allowed.
 Status checkPlatelets(const PlateletSettings& settings);
 
