@@ -90,6 +90,8 @@ Status WorldCore<Real>::adopt(World& world) {
   repulsion_start_ = from->description_.effects.repulsion ? from->repulsion_start_ : from->time_;
   solving_viscosity_ = from->solving_viscosity_;
   viscosity_iterations_ = from->viscosity_iterations_;
+  clotting_time_ = from->clotting_time_;
+  clotting_step_ = steps_;  // at once: viscosities and the limit that comes of them are made anew
   // The step that was due, unless an effect that is new here allows less.
   chooseTimeStep(std::numeric_limits<double>::infinity());
   next_dt_ = std::min(from->next_dt_, next_dt_);

@@ -17,6 +17,14 @@ class StageClock {
     seconds_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
     last_ = now;
   }
+  /// Of what passed, `part` belongs to `second`, the rest to `first`.
+  void lap(Stage first, Stage second, double part) {
+    const double before = seconds_[static_cast<std::size_t>(first)];
+    lap(first);
+    const double moved = part * (seconds_[static_cast<std::size_t>(first)] - before);
+    seconds_[static_cast<std::size_t>(first)] -= moved;
+    seconds_[static_cast<std::size_t>(second)] += moved;
+  }
   const std::array<double, static_cast<int>(Stage::count)>& seconds() const { return seconds_; }
 
  private:

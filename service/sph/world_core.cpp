@@ -89,6 +89,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     if (effects.core_radius) core_radius_.emplace(*effects.core_radius, description.rest_density, options.threads);
     if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, tables.sweeps.shear_rate);
     if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
+    thins_ = effects.viscosity && !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology);
     if (effects.platelets) clotting_.emplace(*effects.platelets, description.spacing, description.rest_density, walls_.field());
   }
   if (mayNeedImplicitViscosity(description, speed_of_sound_)) {
@@ -171,6 +172,7 @@ Status WorldCore<Real>::step(double dt_limit) {
 /// A step of `dt` up to where it shows whether it holds; what comes after only takes and cannot be taken back.
 template <class Real>
 Trouble WorldCore<Real>::attempt(double dt) {
+  clotting_due_ = clotting_ && (steps_ >= clotting_step_ || clotting_time_ + dt >= clotting_->longestStep());
   emit(dt);
   clock_.lap(Stage::emit);
   chooseShares();
@@ -212,7 +214,9 @@ template <class Real>
 void WorldCore<Real>::makeBlood(std::uint32_t i, std::optional<double> viscosity, std::optional<double> platelet) {
   const EffectSettings& effects = description_.effects;
   if (!particles_.inverse_viscosity.empty()) {
-    particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity.value_or(effects.viscosity->viscosity));
+    double acting = viscosity.value_or(effects.viscosity->viscosity);
+    if (clotting_) { acting = thickened(acting, effects.platelets->clot_viscosity, platelet.value_or(effects.platelets->fresh)); }
+    particles_.inverse_viscosity[i] = static_cast<Real>(1.0 / acting);
   }
   if (!particles_.own_viscosity.empty()) particles_.own_viscosity[i] = static_cast<Real>(viscosity.value_or(0.0));
   if (!particles_.platelet.empty()) particles_.platelet[i] = static_cast<Real>(platelet.value_or(effects.platelets->fresh));
@@ -280,26 +284,52 @@ void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds, Real half_kick) 
   clock_.lap(Stage::neighbors);
 }
 
+/// Densities with forces close behind, where nothing has to come between them; whether it did.
+template <class Real>
+template <class Job>
+bool WorldCore<Real>::passPairsAtOnce(void (*forces)(const Job&), const Job& job) {
+  const auto& periodic = description_.domain.periodic;
+  if (forces == nullptr || periodic[0] || periodic[1] || periodic[2]) return false;
+  double force_part = 0.0;
+  counter(Counter::neighbor_overflow) +=
+      passes_.densityAndSweep(grid_, particles_, walls_.share(), count_, shares_, *executor_, forces, job, force_part);
+  clock_.lap(Stage::density, Stage::force, force_part);
+  return true;
+}
+
+/// Viscosities by shear rate and platelets, and the limit of the time step that comes of them.
+template <class Real>
+void WorldCore<Real>::changeBlood() {
+  if (shear_rate_) shear_rate_->update(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
+  if (!rheology_) return;
+  const double largest = rheology_->update(particles_, passes_, shearRates(), count_, shares_, *executor_);
+  if (largest > 0.0) limits_.viscous = diffusionLimit(description_, largest / description_.rest_density);
+}
+
 template <class Real>
 void WorldCore<Real>::computeAccelerations() {
   passes_.exchangeAccelerations();
   walls_.sample(grid_, particles_, wounds_, count_, shares_, *executor_);
   clock_.lap(Stage::tissue);
-  counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
-  clock_.lap(Stage::density);
-  if (literal_) {
-    literal_->add(grid_, particles_, passes_, count_, shares_, *executor_);
-  } else {
-    if (shear_rate_) shear_rate_->update(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
-    if (rheology_) {
-      const double largest = rheology_->update(particles_, passes_, shearRates(), count_, shares_, *executor_);
-      if (largest > 0.0) limits_.viscous = diffusionLimit(description_, largest / description_.rest_density);
+  const double growth_time = kContactGrowth * description_.spacing / speed_of_sound_;
+  passes_.setContactGrowth(static_cast<Real>(std::min(1.0, (time_ - repulsion_start_) / growth_time)));
+  if (literal_) literal_->thicken(particles_, passes_, count_, shares_, *executor_);
+  const bool blood_changes = (shear_rate_ || rheology_) && (thins_ || clotting_due_);
+  const bool viscous = !solving_viscosity_;
+  const bool both = literal_
+                        ? passPairsAtOnce(literal_->function(), literal_->job(passes_))
+                        : !blood_changes && passPairsAtOnce(passes_.forceFunction(viscous, clotting_due_), passes_.forceJob());
+  if (!both) {
+    counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
+    clock_.lap(Stage::density);
+    if (blood_changes) changeBlood();
+    if (literal_) {
+      literal_->add(grid_, particles_, passes_, count_, shares_, *executor_);
+    } else {
+      passes_.force(grid_, particles_, count_, shares_, *executor_, viscous, clotting_due_);
     }
-    const double growth_time = kContactGrowth * description_.spacing / speed_of_sound_;
-    passes_.setContactGrowth(static_cast<Real>(std::min(1.0, (time_ - repulsion_start_) / growth_time)));
-    passes_.force(grid_, particles_, count_, shares_, *executor_, !solving_viscosity_);
-    if (surface_tension_) surface_tension_->add(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
   }
+  if (surface_tension_) surface_tension_->add(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
   clock_.lap(Stage::force);
   if (solving_viscosity_) implicit_viscosity_->clearDrag(count_);
   walls_.addForces(particles_, passes_, shares_, *executor_, solving_viscosity_ ? implicit_viscosity_->drag() : nullptr);
@@ -331,8 +361,12 @@ bool WorldCore<Real>::closeKick(double dt) {
 template <class Real>
 void WorldCore<Real>::finishStep(double dt) {
   if (literal_) literal_->diffuse(particles_, passes_, static_cast<Real>(dt), count_, shares_, *executor_);
-  if (clotting_) {
-    clotting_->advance(particles_, passes_, shearRates(), walls_, grid_, static_cast<Real>(dt), count_, shares_, *executor_);
+  if (clotting_) clotting_time_ += dt;
+  if (clotting_ && clotting_due_) {
+    clotting_->advance(particles_, passes_, shearRates(), walls_, grid_, static_cast<Real>(clotting_time_), count_, shares_,
+                       *executor_);
+    clotting_time_ = 0.0;
+    clotting_step_ = steps_ + kClottingSteps;
   }
   if (core_radius_ && dt > 0.0) {
     passes_.setReach(core_radius_->update(particles_, passes_.density(), count_, shares_, *executor_));

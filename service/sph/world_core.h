@@ -87,6 +87,9 @@ class WorldCore final : public World {
   void holdStill();
   void findNeighbors(const Bounds<Real>& bounds, Real half_kick);
   void computeAccelerations();
+  template <class Job>
+  bool passPairsAtOnce(void (*forces)(const Job&), const Job& job);
+  void changeBlood();
   bool closeKick(double dt);
   void finishStep(double dt);
   bool solveViscosity(double dt);
@@ -134,6 +137,10 @@ class WorldCore final : public World {
   std::optional<ShearRate<Real>> shear_rate_;
   std::optional<EffectiveViscosity<Real>> rheology_;
   std::optional<Clotting<Real>> clotting_;
+  bool thins_ = false;               // viscosity depends on the shear rate
+  bool clotting_due_ = true;         // in this step
+  std::uint64_t clotting_step_ = 0;  // the first one in which it is due
+  double clotting_time_ = 0.0;       // that the platelets have not lived through yet, s
   std::optional<ImplicitViscosity<Real>> implicit_viscosity_;
   bool solving_viscosity_ = false;  // implicitly, in this step
   int viscosity_iterations_ = 0;

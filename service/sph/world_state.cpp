@@ -14,7 +14,7 @@
 namespace bleedsim::sph {
 namespace {
 
-constexpr std::uint64_t kStateMark = 0x31305753'44454c42u;  // "BLEDSW01"
+constexpr std::uint64_t kStateMark = 0x32305753'44454c42u;  // "BLEDSW02"
 
 // Velocities are capped at 2 c0 and then only slowed down; this leaves room for rounding.
 constexpr double kMostSpeed = 4.0;
@@ -91,6 +91,8 @@ struct WorldCore<Real>::SavedScalars {
   double reach = 1.0;
   std::uint64_t solving_viscosity = 0;
   std::uint64_t viscosity_iterations = 0;
+  std::uint64_t clotting_step = 0;
+  double clotting_time = 0.0;
   std::array<std::uint64_t, static_cast<std::size_t>(Counter::count)> counters{};
 };
 
@@ -116,6 +118,8 @@ typename WorldCore<Real>::SavedScalars WorldCore<Real>::scalars() const {
   saved.reach = static_cast<double>(passes_.reach());
   saved.solving_viscosity = solving_viscosity_ ? 1 : 0;
   saved.viscosity_iterations = static_cast<std::uint64_t>(viscosity_iterations_);
+  saved.clotting_step = clotting_step_;
+  saved.clotting_time = clotting_time_;
   saved.counters = counters_;
   return saved;
 }
@@ -161,13 +165,15 @@ Status WorldCore<Real>::checkScalars(const SavedScalars& saved) const {
   if (saved.unseen > saved.count || saved.next_id == 0 || saved.next_id > std::numeric_limits<std::uint32_t>::max()) {
     return damaged("the numbers of particles do not agree");
   }
-  if (!isTime(saved.time) || !isTime(saved.last_dt) || !isTime(saved.next_dt) || !(saved.next_dt > 0.0)) {
+  if (!isTime(saved.time) || !isTime(saved.clotting_time) || !isTime(saved.last_dt) || !isTime(saved.next_dt) ||
+      !(saved.next_dt > 0.0)) {
     return damaged("the state's time is not a time");
   }
   if (!isTime(saved.max_speed) || !isTime(saved.max_acceleration2) || !isTime(saved.max_speed2) ||
       std::isnan(saved.repulsion_start) || !(saved.viscous_limit > 0.0)) {
     return damaged("a limit of the time step is not a number");
   }
+  if (saved.clotting_step > saved.steps + kClottingSteps) return damaged("the clotting is due too late");
   const double largest = std::max(1.0, radiusBounds(description_).largest);
   if (!(saved.reach >= 1.0) || static_cast<Real>(saved.reach) > static_cast<Real>(largest)) {
     return damaged("the reach of the neighbour search is out of its bounds");
@@ -289,6 +295,8 @@ Status WorldCore<Real>::restoreState(std::span<const std::byte> state) {
   passes_.setReach(static_cast<Real>(saved.reach));
   solving_viscosity_ = saved.solving_viscosity != 0;
   viscosity_iterations_ = static_cast<int>(std::min<std::uint64_t>(saved.viscosity_iterations, std::numeric_limits<int>::max()));
+  clotting_step_ = saved.clotting_step;
+  clotting_time_ = saved.clotting_time;
   counters_ = saved.counters;
   faulted_ = false;
   return {};

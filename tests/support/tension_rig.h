@@ -66,7 +66,7 @@ class TensionRig : public test::ParticleRig<Real> {
   void run() {
     walls_.sample(this->grid_, this->sorted_, wounds_, this->count_, this->shares_, *this->executor_);
     this->passes_.density(this->grid_, this->sorted_, walls_.share(), this->count_, this->shares_, *this->executor_);
-    this->passes_.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true);
+    this->passes_.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true, true);
     tension_.add(this->grid_, this->sorted_, walls_, this->passes_, this->count_, this->shares_, *this->executor_);
     acceleration_ = this->vectorsOf(this->passes_.acceleration());
   }

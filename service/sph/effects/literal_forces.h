@@ -34,26 +34,41 @@ class LiteralForces {
     if (thickens_) law_ = thickening(description);
   }
 
-  /// Viscosity from platelets, accelerations and the platelets' rates of particles whose densities are known.
-  void add(const CellGrid<Real>& grid, Particles<Real>& p, PairPasses<Real>& passes, std::uint32_t count, int shares,
-           Executor& executor) const {
-    if (thickens_) {
-      executor.run(shares, [&](int share) {
-        const ShareRange range{count, share, shares};
-        for (std::uint32_t i = range.begin; i < range.end; ++i) {
-          const double viscosity = law_.scale * ownExp(-law_.exponent * static_cast<double>(p.platelet[i]));
-          p.inverse_viscosity[i] = static_cast<Real>(1.0 / viscosity);
-          passes.record(i)[kRecordInverseViscosity] = p.inverse_viscosity[i];
+  /// Viscosity from platelets; before add().
+  void thicken(Particles<Real>& p, PairPasses<Real>& passes, std::uint32_t count, int shares, Executor& executor) const {
+    if (!thickens_) return;
+    executor.run(shares, [&](int share) {
+      const ShareRange range{count, share, shares};
+      Real last_platelet = std::numeric_limits<Real>::quiet_NaN();  // neighbours mostly have the same
+      Real inverse = 0;
+      for (std::uint32_t i = range.begin; i < range.end; ++i) {
+        if (p.platelet[i] != last_platelet) {
+          last_platelet = p.platelet[i];
+          const double viscosity = law_.scale * ownExp(-law_.exponent * static_cast<double>(last_platelet));
+          inverse = static_cast<Real>(1.0 / viscosity);
         }
-      });
-    }
+        p.inverse_viscosity[i] = inverse;
+        passes.record(i)[kRecordInverseViscosity] = inverse;
+      }
+    });
+  }
+
+  /// Accelerations and the platelets' rates of particles whose densities are known.
+  void add(const CellGrid<Real>& grid, const Particles<Real>& p, PairPasses<Real>& passes, std::uint32_t count, int shares,
+           Executor& executor) const {
     if (force_ == nullptr) {
-      passes.force(grid, p, count, shares, executor, true);
+      passes.force(grid, p, count, shares, executor, true, true);
       return;
     }
+    passes.sweep(grid, p, count, shares, executor, force_, job(passes));
+  }
+
+  /// What add() runs; null where no term acts.
+  LiteralFunction<Real> function() const { return force_; }
+  LiteralJob<Real> job(PairPasses<Real>& passes) const {
     LiteralJob<Real> job = job_;
     job.acceleration = passes.acceleration();
-    passes.sweep(grid, p, count, shares, executor, force_, job);
+    return job;
   }
 
   /// Closes a step of dt seconds.

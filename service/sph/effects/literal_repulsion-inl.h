@@ -12,6 +12,7 @@
 #define BLEEDSIM_SPH_EFFECTS_LITERAL_REPULSION_INL_H_
 #endif
 
+#include "service/sph/effects/power_gap-inl.h"
 #include "service/sph/passes/literal_job.h"
 #include "service/sph/passes/pair_geometry-inl.h"
 #include "service/sph/passes/paper_kernels-inl.h"
@@ -26,7 +27,7 @@ class LiteralRepulsion {
   using Real = typename L::Scalar;
   static constexpr int kGroups = 1;
 
-  LiteralRepulsion(const LiteralJob<Real>& job, const Real*) : job_{&job} {}
+  LiteralRepulsion(const LiteralJob<Real>& job, const Real*) : job_{&job}, gap_{job.repulsion_powers} {}
 
   /// Table I's else: 0 between particles in contact, `value` between others.
   HWY_INLINE V apart(const Pair<L>& p, V value) const {
@@ -34,25 +35,23 @@ class LiteralRepulsion {
   }
 
   HWY_INLINE void pair(const Pair<L>& p, const PaperWeights<L>&, PairSums<L>& sums) const {
-    const V zero = L::set(Real(0));
-    const V inverse_distance = L::set(Real(1)) / L::max(L::sqrt(p.q2), L::set(Real(1e-3)));
-    const V pe = L::max(L::set(job_->contact) * inverse_distance, L::set(Real(1)));
-    const V strength = power(pe, job_->repulsion_powers[0]) - power(pe, job_->repulsion_powers[1]);
-    const V push = L::min(L::set(job_->repulsion_scale) * strength * (inverse_distance * inverse_distance), L::set(Real(1e15)));
-    const V along = L::ifBelow(p.q2, L::set(Real(1e-12)), zero, push / L::max(L::sqrt(p.q2), L::set(Real(1e-6))));
+    const V contact = L::set(job_->contact);
+    const V one = L::set(Real(1));
+    const V inverse2 = inverseSquare<L>(p.q2);
+    const V inverse_distance = L::sqrt(p.q2) * inverse2;
+    const V capped2 = L::min(inverse2, L::set(Real(1e6)));
+    const V pe = L::max(contact * L::min(inverse_distance, L::set(Real(1e3))), one);
+    const V pe2 = L::max(contact * contact * capped2, one);
+    const V push = L::min(L::set(job_->repulsion_scale) * gap_(pe, pe2) * capped2, L::set(Real(1e15)));
+    const V along = push * inverse_distance;
     sums.ax = L::subMul(sums.ax, along, p.dx);
     sums.ay = L::subMul(sums.ay, along, p.dy);
     sums.az = L::subMul(sums.az, along, p.dz);
   }
 
  private:
-  HWY_INLINE static V power(V base, int exponent) {
-    V result = base;
-    for (int k = 1; k < exponent; ++k) result = result * base;
-    return result;
-  }
-
   const LiteralJob<Real>* job_;
+  PowerGap<L> gap_;
 };
 
 }  // namespace bleedsim::sph::HWY_NAMESPACE

@@ -33,7 +33,9 @@ Status checkPlatelets(const PlateletSettings& s) {
 
 template <class Real>
 Clotting<Real>::Clotting(const PlateletSettings& settings, double spacing, double rest_density, const TissueField<Real>& tissue)
-    : activation_{static_cast<Real>(settings.clot_speedup * settings.activation_rate)},
+    : longest_step_{0.005 / (settings.clot_speedup * (settings.activation_rate + settings.wall_rate + settings.air_rate) +
+                             settings.diffusivity / (spacing * spacing))},
+      activation_{static_cast<Real>(settings.clot_speedup * settings.activation_rate)},
       wall_{static_cast<Real>(settings.clot_speedup * settings.wall_rate)},
       air_{static_cast<Real>(settings.clot_speedup * settings.air_rate)},
       inverse_gate_{static_cast<Real>(1.0 / settings.shear_gate)},

@@ -10,7 +10,8 @@
 // the tissue's share in it, not sum_j V_j W with V_j = m/rho_j: that one is 1 for an isolated particle, which has air all around.
 // rho_i/rho0 is 0.2 to 0.5 there, so A_a = 1; it is 1 in the bulk. Deviation from the paper: its diffusion alone conserves the
 // sum of P and so never clots. In time: P <- (P + dt diffusion)/(1 + dt sinks/P), the walls' sink after the others: first order
-// like the explicit form, but never below 0; then P is held within 0 and 1.
+// like the explicit form, but never below 0; then P is held within 0 and 1. dt is that of several solver steps, of which the last
+// gives diffusion, shear rates and surfaces: all of them are slow against it.
 // Where particles have support radii of their own (34), diffusion keeps the rest lattice's factor of h: that of viscosity travels
 // in 1/mu, and the records have no room for another. k then acts as 0.89 k at 0.9 h and 1.03 k at 1.3 h (h = 2 dx; 1.01 and 1.04
 // at 2.5 dx, 0.97 and 1.01 at 3 dx); radii are h but at surfaces and in films.
@@ -28,6 +29,9 @@
 
 namespace bleedsim::sph {
 
+/// Clotting takes minutes, a step less than a millisecond: it is advanced every so many steps, by all their time.
+constexpr std::uint64_t kClottingSteps = 8;
+
 /// invalid_argument with the value and what is allowed.
 Status checkPlatelets(const PlateletSettings& settings);
 
@@ -37,12 +41,16 @@ class Clotting {
   /// `spacing` dx in m, `rest_density` in kg/m^3.
   Clotting(const PlateletSettings& settings, double spacing, double rest_density, const TissueField<Real>& tissue);
 
-  /// Closes a step of dt seconds: diffusion from the fourth component of the accelerations, then the sinks. `shear_rate` in 1/s,
+  /// The most time that advance() may be given, s: 1/200 of the shortest time in which a sink or diffusion over dx would act.
+  double longestStep() const { return longest_step_; }
+
+  /// Closes dt seconds: diffusion from the fourth component of the accelerations, then the sinks. `shear_rate` in 1/s,
   /// or null: 0 everywhere. `shares` as in the sampling of the walls.
   void advance(Particles<Real>& p, const PairPasses<Real>& passes, const Real* shear_rate, const WallEffects<Real>& walls,
                const CellGrid<Real>& grid, Real dt, std::uint32_t count, int shares, Executor& executor) const;
 
  private:
+  double longest_step_;     // s
   Real activation_;         // s r, 1/s
   Real wall_;               // s k_w, 1/s
   Real air_;                // s k_a, 1/s

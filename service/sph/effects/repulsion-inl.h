@@ -14,6 +14,7 @@
 #define BLEEDSIM_SPH_EFFECTS_REPULSION_INL_H_
 #endif
 
+#include "service/sph/effects/power_gap-inl.h"
 #include "service/sph/passes/pair_geometry-inl.h"
 #include "service/sph/passes/pass_jobs.h"
 
@@ -28,37 +29,36 @@ class Repulsion {
   static constexpr int kGroups = 2;
 
   Repulsion(const ForceJob<Real>& job, const Real* record)
-      : job_{job}, vx_{L::set(record[kRecordVx])}, vy_{L::set(record[kRecordVy])}, vz_{L::set(record[kRecordVz])} {}
+      : job_{job},
+        gap_{job.repulsion_powers},
+        vx_{L::set(record[kRecordVx])},
+        vy_{L::set(record[kRecordVy])},
+        vz_{L::set(record[kRecordVz])} {}
 
   HWY_INLINE void pair(const Pair<L>& p, PairSums<L>& sums) const {
     const V contact = L::set(job_.repulsion_contact);
-    const V zero = L::set(Real(0));
     const V one = L::set(Real(1));
-    // A particle is its own neighbour: at zero distance there is no direction and so no force.
-    const V inverse_distance = one / L::sqrt(L::max(p.q2, L::set(Real(1e-12))));
-    const V inverse_capped = L::min(inverse_distance, L::set(job_.repulsion_overlap / job_.repulsion_contact));
-    const V pe = L::max(contact * inverse_capped, one);
-    const V strength = L::max(power(pe, job_.repulsion_powers[0]) - power(pe, job_.repulsion_powers[1]), zero);
-    const V push = L::set(job_.repulsion_scale) * strength * (inverse_capped * inverse_capped);
-    const V ex = p.dx * inverse_distance;
-    const V ey = p.dy * inverse_distance;
-    const V ez = p.dz * inverse_distance;
+    const V deepest = L::set(job_.repulsion_overlap / job_.repulsion_contact);
+    // A particle is its own neighbour: at zero distance there is no direction and so no force. The division does not wait for the
+    // root, which the kernel takes, too.
+    const V inverse2 = one / L::max(p.q2, L::set(Real(1e-12)));
+    const V inverse_distance = L::sqrt(p.q2) * inverse2;
+    const V capped2 = L::min(inverse2, deepest * deepest);
+    const V pe = L::max(contact * L::min(inverse_distance, deepest), one);
+    const V pe2 = L::max(contact * contact * capped2, one);
+    const V push = L::set(job_.repulsion_scale) * gap_(pe, pe2) * capped2;
     const V closing =
-        L::mulAdd(p.field[kRecordVz] - vz_, ez, L::mulAdd(p.field[kRecordVy] - vy_, ey, (p.field[kRecordVx] - vx_) * ex));
-    const V along = L::subMul(L::set(job_.repulsion_damping) * (pe - one) * closing, push, one);
-    sums.ax = L::mulAdd(along, ex, sums.ax);
-    sums.ay = L::mulAdd(along, ey, sums.ay);
-    sums.az = L::mulAdd(along, ez, sums.az);
+        L::mulAdd(p.field[kRecordVz] - vz_, p.dz, L::mulAdd(p.field[kRecordVy] - vy_, p.dy, (p.field[kRecordVx] - vx_) * p.dx));
+    const V drag = L::set(job_.repulsion_damping) * (pe - one) * closing * inverse2;
+    const V along = L::subMul(drag, push, inverse_distance);
+    sums.ax = L::mulAdd(along, p.dx, sums.ax);
+    sums.ay = L::mulAdd(along, p.dy, sums.ay);
+    sums.az = L::mulAdd(along, p.dz, sums.az);
   }
 
  private:
-  HWY_INLINE static V power(V base, int exponent) {
-    V result = base;
-    for (int k = 1; k < exponent; ++k) result = result * base;
-    return result;
-  }
-
   const ForceJob<Real>& job_;
+  PowerGap<L> gap_;
   V vx_, vy_, vz_;
 };
 

@@ -56,7 +56,7 @@ class CellGrid {
         corner_[a] = static_cast<Real>(lower[a]);
         scale_[a] = static_cast<Real>(cells / length);
         view_.period[a] = static_cast<Real>(length);
-        view_.size[a] = cells + 2;
+        setSize(a, cells + 2);
         most *= static_cast<std::size_t>(cells) + 2;
       } else {
         scale_[a] = Real(1);
@@ -90,11 +90,11 @@ class CellGrid {
       scale_[a] = Real(1) / cell;
       if (one_cell_ || bounds.lower[a] > bounds.upper[a]) {
         origin_[a] = Real(0);
-        view_.size[a] = 3;
+        setSize(a, 3);
         continue;
       }
       origin_[a] = std::floor(std::max(bounds.lower[a], lowest_[a]) * scale_[a]);
-      view_.size[a] = std::max(0, static_cast<int>(std::min(bounds.upper[a], highest_[a]) * scale_[a] - origin_[a])) + 3;
+      setSize(a, std::max(0, static_cast<int>(std::min(bounds.upper[a], highest_[a]) * scale_[a] - origin_[a])) + 3);
     }
   }
 
@@ -106,8 +106,9 @@ class CellGrid {
   }
   /// 1-based cell coordinate along an axis, clamped to the grid.
   int coordinate(std::size_t axis, Real value) const {
-    const int c = static_cast<int>(std::clamp((value - corner_[axis]) * scale_[axis] - origin_[axis], Real(0), Real(1e8))) + 1;
-    return std::clamp(c, 1, view_.size[axis] - 2);
+    // In this order a value that is no number gives the first cell.
+    const Real c = std::max(Real(0), (value - corner_[axis]) * scale_[axis] - origin_[axis]);
+    return static_cast<int>(std::min(c, last_[axis])) + 1;
   }
 
   /// Counts cells() of n particles, then calls move(from, to) for every particle that stays: `to` is its place in cell order,
@@ -163,10 +164,16 @@ class CellGrid {
   }
 
  private:
+  void setSize(std::size_t axis, int size) {
+    view_.size[axis] = size;
+    last_[axis] = static_cast<Real>(size - 3);
+  }
+
   GridView<Real> view_;
   std::array<Real, 3> corner_{};  ///< what cells are counted from: the domain's corner where periodic, else the origin
   std::array<Real, 3> origin_{};  ///< the first cell of the bounds, counted from there
   std::array<Real, 3> scale_{Real(1), Real(1), Real(1)};  ///< cells per support radius, <= 1
+  std::array<Real, 3> last_{};                            ///< the outermost cell, counted from the first
   std::array<Real, 3> lowest_{}, highest_{};              ///< what the grid covers at most, in support radii
   bool one_cell_ = false;
   AlignedArray<std::uint32_t> start_;

@@ -26,6 +26,12 @@ struct GridView {
   int rows() const { return size[1] * size[2]; }
   std::uint32_t rowBegin(int row) const { return start[static_cast<std::size_t>(row) * static_cast<std::size_t>(size[0])]; }
   std::uint32_t rowEnd(int row) const { return rowBegin(row + 1); }
+  /// The end of as few rows from `row` on as hold `particles`, at most `end`.
+  int rowsWith(std::uint32_t particles, int row, int end) const {
+    const std::uint32_t first = rowBegin(row);
+    while (row < end && rowBegin(row) - first < particles) ++row;
+    return row;
+  }
   std::size_t cell(int row, int x) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(size[0]) + static_cast<std::size_t>(x);
   }

@@ -22,7 +22,8 @@ HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 
 /// kRadius: whose support radius a pair is weighed with. mean: (W(h_i) + W(h_j))/2, each W with its lattice's mass factor, and
-/// the lists reach as far as the largest radius. own: W(h_i), and a list reaches as far as ownReach2().
+/// a list has those within the larger radius of the two, never less than h. own: W(h_i), and a list reaches as far as
+/// ownReach2().
 template <class L, template <class> class KernelOf, bool kPeriodic, bool kTissue, SupportRadius kRadius>
 class DensityPass {
  public:
@@ -58,9 +59,16 @@ class DensityPass {
     if constexpr (kRadius == SupportRadius::common)
       return Real(1);
     else if constexpr (kRadius == SupportRadius::mean)
-      return job_.reach2;
+      return std::max(Real(1), job_.radius[i] * job_.radius[i]);
     else
       return ownReach2(job_.record + static_cast<std::size_t>(i) * stride_);
+  }
+  /// How far a vector of candidates reaches, where they count.
+  HWY_INLINE V pairReach2(V own, [[maybe_unused]] int candidates) const {
+    if constexpr (kRadius == SupportRadius::mean)
+      return L::max(own, L::load(reach2_ + candidates));
+    else
+      return own;
   }
 
   void sweepRow(int row) {
@@ -81,7 +89,7 @@ class DensityPass {
   }
 
   /// Fills the candidate buffer; false when the cells hold too many.
-  bool gatherCandidates(const NeighborRun<Real>* runs, int run_count, std::uint32_t begin, std::uint32_t end) {
+  HWY_INLINE bool gatherCandidates(const NeighborRun<Real>* runs, int run_count, std::uint32_t begin, std::uint32_t end) {
     std::uint32_t total = 0;
     for (int k = 0; k < run_count; ++k) total += runs[k].end - runs[k].begin;
     if (total > static_cast<std::uint32_t>(kMaxCandidates - kWidth * GridView<Real>::kMaxRuns)) return false;
@@ -111,7 +119,12 @@ class DensityPass {
 
     int count = 0;
     const V zero = L::set(Real(0));
-    const V reach = reach2();
+    V reach = reach2();
+    if constexpr (kRadius == SupportRadius::mean) {
+      Real largest = Real(1);
+      for (std::uint32_t i = begin; i < end; ++i) largest = std::max(largest, job_.radius[i]);
+      reach = L::set(largest * largest);
+    }
     for (int b = 0; b < blocks; ++b) {
       const std::uint32_t j = block_begin_[b];
       V x = L::loadUnaligned(job_.x + j);
@@ -128,7 +141,15 @@ class DensityPass {
       const V dz = L::max(L::max(lower[2] - z, z - upper[2]), zero);
       V q2 = L::mulAdd(dx, dx, L::tail(block_end_[b] - j));
       q2 = L::mulAdd(dz, dz, L::mulAdd(dy, dy, q2));
-      const auto near = L::below(q2, reach);
+      V pair_reach = reach;
+      [[maybe_unused]] V own_reach;
+      if constexpr (kRadius == SupportRadius::mean) {
+        const V radius = L::loadUnaligned(job_.radius + j);
+        own_reach = radius * radius;
+        pair_reach = L::max(reach, own_reach);
+      }
+      const auto near = L::below(q2, pair_reach);
+      if constexpr (kRadius == SupportRadius::mean) L::compress(own_reach, near, reach2_ + count);
       L::compress(x, near, x_ + count);
       L::compress(y, near, y_ + count);
       L::compress(z, near, z_ + count);
@@ -197,12 +218,13 @@ class DensityPass {
     const V z = L::set(job_.z[i]);
     const V reach = L::set(reach2Of(i));
     for (int c = 0; c < candidates_; c += kWidth) {
-      take(hits, distance2<L>(L::load(x_ + c) - x, L::load(y_ + c) - y, L::load(z_ + c) - z), L::loadIds(ids_ + c), reach);
+      take(hits, distance2<L>(L::load(x_ + c) - x, L::load(y_ + c) - y, L::load(z_ + c) - z), L::loadIds(ids_ + c),
+           pairReach2(reach, c));
       if (hits.count > kListLimit) return false;
     }
     return true;
   }
-  bool searchTwo(std::uint32_t i, Hits& a, Hits& b) const {
+  HWY_INLINE bool searchTwo(std::uint32_t i, Hits& a, Hits& b) const {
     const V x0 = L::set(job_.x[i]);
     const V y0 = L::set(job_.y[i]);
     const V z0 = L::set(job_.z[i]);
@@ -216,15 +238,15 @@ class DensityPass {
       const V y = L::load(y_ + c);
       const V z = L::load(z_ + c);
       const auto ids = L::loadIds(ids_ + c);
-      take(a, distance2<L>(x - x0, y - y0, z - z0), ids, reach0);
-      take(b, distance2<L>(x - x1, y - y1, z - z1), ids, reach1);
+      take(a, distance2<L>(x - x0, y - y0, z - z0), ids, pairReach2(reach0, c));
+      take(b, distance2<L>(x - x1, y - y1, z - z1), ids, pairReach2(reach1, c));
       if (std::max(a.count, b.count) > kListLimit) return false;
     }
     return true;
   }
 
   /// Pads the list to whole vectors and records where it is; returns its length in vectors.
-  int closeList(std::uint32_t i, Hits& hits) {
+  HWY_INLINE int closeList(std::uint32_t i, Hits& hits) {
     L::storeUnaligned(reach2(), hits.q2 + hits.count);
     L::storeIds(L::setIds(job_.count * stride_), hits.ids + hits.count);
     const int length = (hits.count + kWidth - 1) / kWidth;
@@ -234,7 +256,7 @@ class DensityPass {
     return length;
   }
 
-  void evaluate(std::uint32_t first, std::uint32_t size) {
+  HWY_INLINE void evaluate(std::uint32_t first, std::uint32_t size) {
     for (std::uint32_t k = 0; k < size; ++k) {
       V sum = L::set(Real(0));
       if (lengths_[k] > 0) {
@@ -307,20 +329,24 @@ class DensityPass {
     }
   }
 
-  DensityJob<Real>& job_;
-  const std::uint32_t stride_;
-  int candidates_ = 0;
-  int lengths_[kBatch + 8] = {};
+  // The candidates' arrays are read side by side: a quarter of a page apart they keep out of each other's cache sets. On a page's
+  // border, so that no run's luck with its stack decides which sets they share with the particles.
+  static constexpr int kCandidateRoom = kMaxCandidates + 1024 / static_cast<int>(sizeof(Real));
+  alignas(4096) Real x_[kCandidateRoom];
+  Real y_[kCandidateRoom];
+  Real z_[kCandidateRoom];
+  alignas(64) std::uint32_t ids_[kCandidateRoom];
+  alignas(64) Real reach2_[kRadius == SupportRadius::mean ? kCandidateRoom : 1];
+  alignas(64) Real q2_[kBatch * kMaxNeighbors];
+  alignas(64) Real sums_[(kBatch + 8) * kWidth] = {};
+  alignas(64) std::uint32_t second_ids_[kMaxNeighbors];
   std::uint32_t block_begin_[kMaxBlocks];
   std::uint32_t block_end_[kMaxBlocks];
   std::uint8_t block_run_[kMaxBlocks];
-  alignas(64) Real x_[kMaxCandidates + 8];
-  alignas(64) Real y_[kMaxCandidates + 8];
-  alignas(64) Real z_[kMaxCandidates + 8];
-  alignas(64) std::uint32_t ids_[kMaxCandidates + 8];
-  alignas(64) std::uint32_t second_ids_[kMaxNeighbors];
-  alignas(64) Real q2_[kBatch * kMaxNeighbors];
-  alignas(64) Real sums_[(kBatch + 8) * kWidth] = {};
+  int lengths_[kBatch + 8] = {};
+  DensityJob<Real>& job_;
+  const std::uint32_t stride_;
+  int candidates_ = 0;
 };
 
 }  // namespace bleedsim::sph::HWY_NAMESPACE

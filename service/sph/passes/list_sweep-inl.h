@@ -77,7 +77,7 @@ class ListSweep {
     const V z = L::set(own[kRecordZ]);
     for (; blocks > 0; --blocks, list += L::kWidth) {
       Pair<L> p;
-      for (int g = 0; g < kGroups; ++g) L::gatherGroup(job.record + 4 * g, list, p.field + 4 * g);
+      gatherGroups(job.record, list, p.field);
       p.dx = p.field[kRecordX] - x;
       p.dy = p.field[kRecordY] - y;
       p.dz = p.field[kRecordZ] - z;
@@ -97,6 +97,15 @@ class ListSweep {
       }
       body.pair(p);
     }
+  }
+
+  /// Written out: as a loop the compiler may keep it, and with it the fields in memory.
+  HWY_INLINE static void gatherGroups(const Real* record, const std::uint32_t* list, V* field) {
+    static_assert(kGroups >= 1 && kGroups <= 4);
+    L::gatherGroup(record, list, field);
+    if constexpr (kGroups > 1) L::gatherGroup(record + 4, list, field + 4);
+    if constexpr (kGroups > 2) L::gatherGroup(record + 8, list, field + 8);
+    if constexpr (kGroups > 3) L::gatherGroup(record + 12, list, field + 12);
   }
 
   /// The minimum image; at most one period is taken off, so that the far dummy stays far.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -51,8 +53,8 @@ class PairPasses {
   PairPasses(const PassTable<Real>& table, const PairLayout& layout, const PairConstants<Real>& constants, std::uint32_t capacity,
              double support_ratio, int shares, const std::optional<LatticeFactors<Real>>& lattice = std::nullopt)
       : density_function_{table.density[layout.tissue ? 1 : 0][layout.set.core_radius ? 1 : 0]},
-        force_function_{table.force[layout.set.index()]},
-        inviscid_function_{table.force[withoutViscosity(layout.set).index()]},
+        force_functions_{{{forceOf(table, layout.set, false, false), forceOf(table, layout.set, false, true)},
+                          {forceOf(table, layout.set, true, false), forceOf(table, layout.set, true, true)}}},
         symmetric_{layout.set.pressure == PressureTerm::symmetric},
         planar_{layout.planar},
         groups_{std::max(layout.least_groups, recordGroups(layout.set, layout.tension))},
@@ -95,47 +97,71 @@ class PairPasses {
   /// Densities, pressures and neighbour lists of the `count` sorted and packed particles; returns how many took the slow path.
   std::uint64_t density(const CellGrid<Real>& grid, const Particles<Real>& p, const Real* wall_share, std::uint32_t count,
                         int shares, Executor& executor) {
-    Real* dummy = record_.data() + std::size_t{count} * static_cast<std::size_t>(4 * groups_);
-    for (int k = 0; k < 4 * groups_; ++k) dummy[k] = dummyField(k);
+    setDummy(count);
     executor.run(shares, [&](int share) {
-      NeighborLists& lists = lists_[static_cast<std::size_t>(share)];
-      lists.used = 0;
-      DensityJob<Real> job;
-      job.grid = grid.view();
+      DensityJob<Real> job = densityJob(grid, p, wall_share, count, share);
       job.row_begin = grid.firstRow(share, shares, count);
       job.row_end = grid.firstRow(share + 1, shares, count);
-      job.x = p.x.data();
-      job.y = p.y.data();
-      job.z = p.z.data();
-      job.share = wall_share;
-      job.count = count;
-      job.groups = groups_;
-      job.mass_weight = constants_.mass_weight;
-      job.rest_density = constants_.rest_density;
-      job.stiffness = constants_.stiffness;
-      job.background = constants_.background;
-      job.pressure_floor = constants_.pressure_floor;
-      job.pressure_scale = constants_.pressure_scale;
-      job.symmetric = symmetric_;
-      job.reach2 = reach_ * reach_;
-      job.lists = &lists;
-      job.list_at = list_at_.data();
-      job.blocks = blocks_.data();
-      job.record = record_.data();
-      job.density = density_.data();
       density_function_(job);
       overflowed_[static_cast<std::size_t>(share)] = job.overflowed;
     });
-    std::uint64_t overflowed = 0;
-    for (int share = 0; share < shares; ++share) overflowed += overflowed_[static_cast<std::size_t>(share)];
-    return overflowed;
+    return overflowed(shares);
   }
 
-  /// Accelerations by all pair effects, viscosity left out where it is solved implicitly; zero when there is none. `shares` as in
-  /// density().
+  /// density() and a walk over its lists in one, the walk one layer of cells behind: lists and records are in the caches still.
+  /// Not with periodic sides, where the first row waits for the last. `walk_part` gets the walk's part of the time.
+  template <class Job>
+  std::uint64_t densityAndSweep(const CellGrid<Real>& grid, const Particles<Real>& p, const Real* wall_share, std::uint32_t count,
+                                int shares, Executor& executor, void (*function)(const Job&), const Job& job, double& walk_part) {
+    setDummy(count);
+    const int layer = grid.view().size[1] + 1;  // a row needs the densities of so many rows before and behind it
+    RowTimes times;
+    executor.run(shares, [&](int share) {
+      DensityJob<Real> densities = densityJob(grid, p, wall_share, count, share);
+      Job walk = sweepJob(grid, p, count, share, job);
+      const int begin = grid.firstRow(share, shares, count);
+      const int end = grid.firstRow(share + 1, shares, count);
+      const int own = begin + (share == 0 ? 0 : layer);  // the rows before wait for the other share
+      int walked = own;
+      for (int row = begin; row < end;) {
+        if (share == 0) times.start();
+        densities.row_begin = row;
+        row = grid.view().rowsWith(kChunk, row, end);
+        densities.row_end = row;
+        density_function_(densities);
+        if (share == 0) times.lap(0);
+        if (row - layer <= walked) continue;
+        walk.row_begin = walked;
+        walk.row_end = row - layer;
+        function(walk);
+        walked = walk.row_end;
+        if (share == 0) times.lap(1);
+      }
+      overflowed_[static_cast<std::size_t>(share)] = densities.overflowed;
+    });
+    executor.run(shares, [&](int share) {
+      Job walk = sweepJob(grid, p, count, share, job);
+      const int begin = grid.firstRow(share, shares, count);
+      const int end = grid.firstRow(share + 1, shares, count);
+      const int own = share == 0 ? begin : std::min(end, begin + layer);
+      if (share == 0) times.start();
+      walk.row_begin = begin;
+      walk.row_end = own;
+      function(walk);
+      walk.row_begin = std::max(own, end - layer);
+      walk.row_end = end;
+      function(walk);
+      if (share == 0) times.lap(1);
+    });
+    walk_part = times.walkPart();
+    return overflowed(shares);
+  }
+
+  /// Accelerations by all pair effects, but for those that this step does without: viscosity where it is solved implicitly, the
+  /// platelets' diffusion where it is not due. Zero when there is none. `shares` as in density().
   void force(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int shares, Executor& executor,
-             bool viscous) {
-    const ForceFunction<Real> function = forceFunction(viscous);
+             bool viscous, bool platelets) {
+    const ForceFunction<Real> function = forceFunction(viscous, platelets);
     if (function == nullptr) {
       executor.run(shares, [&](int share) {
         const auto begin = grid.view().rowBegin(grid.firstRow(share, shares, count));
@@ -144,6 +170,14 @@ class PairPasses {
       });
       return;
     }
+    sweep(grid, p, count, shares, executor, function, forceJob());
+  }
+
+  /// What force() runs; null where no effect acts in the pair loop.
+  ForceFunction<Real> forceFunction(bool viscous, bool platelets) const {
+    return force_functions_[viscous ? 1 : 0][platelets ? 1 : 0];
+  }
+  ForceJob<Real> forceJob() {
     ForceJob<Real> job;
     job.viscosity_scale = constants_.viscosity_scale;
     job.platelet_scale = constants_.platelet_scale;
@@ -153,7 +187,7 @@ class PairPasses {
     job.repulsion_damping = constants_.repulsion_damping;
     std::copy_n(constants_.repulsion_powers, 2, job.repulsion_powers);
     job.acceleration = acceleration_.data();
-    sweep(grid, p, count, shares, executor, function, job);
+    return job;
   }
 
   /// Runs a walk over the lists that density() made: `function` with a copy of `job` for each share, its SweepJob part filled.
@@ -161,20 +195,9 @@ class PairPasses {
   void sweep(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int shares, Executor& executor,
              void (*function)(const Job&), const Job& job) {
     executor.run(shares, [&](int share) {
-      Job own = job;
-      own.grid = grid.view();
+      Job own = sweepJob(grid, p, count, share, job);
       own.row_begin = grid.firstRow(share, shares, count);
       own.row_end = grid.firstRow(share + 1, shares, count);
-      own.count = count;
-      own.x = p.x.data();
-      own.y = p.y.data();
-      own.z = p.z.data();
-      own.record = record_.data();
-      own.entries = lists_[static_cast<std::size_t>(share)].entries;
-      own.list_at = list_at_.data();
-      own.blocks = blocks_.data();
-      own.reach2 = reach_ * reach_;
-      own.groups = groups_;
       function(own);
     });
   }
@@ -208,7 +231,8 @@ class PairPasses {
   }
 
   std::uintptr_t densityCode() const { return codeOf(density_function_); }
-  std::uintptr_t forceCode(bool viscous) const { return codeOf(forceFunction(viscous)); }
+  /// Of the steps with diffusing platelets.
+  std::uintptr_t forceCode(bool viscous) const { return codeOf(forceFunction(viscous, true)); }
 
   Real* acceleration() { return acceleration_.data(); }
   const Real* acceleration() const { return acceleration_.data(); }
@@ -234,11 +258,92 @@ class PairPasses {
   }
 
  private:
-  ForceFunction<Real> forceFunction(bool viscous) const { return viscous ? force_function_ : inviscid_function_; }
+  /// Particles of the rows that density() and the walk take in turns.
+  static constexpr std::uint32_t kChunk = 512;
 
-  static PairSet withoutViscosity(PairSet set) {
-    set.viscosity = ViscosityTerm::none;
-    return set;
+  /// How a share's time splits between densities (0) and the walk (1), s.
+  class RowTimes {
+   public:
+    void start() { last_ = Clock::now(); }
+    void lap(int part) {
+      const Clock::time_point now = Clock::now();
+      seconds_[static_cast<std::size_t>(part)] += std::chrono::duration<double>(now - last_).count();
+      last_ = now;
+    }
+    double walkPart() const {
+      const double both = seconds_[0] + seconds_[1];
+      return both > 0.0 ? seconds_[1] / both : 0.0;
+    }
+
+   private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point last_{};
+    std::array<double, 2> seconds_{};
+  };
+
+  void setDummy(std::uint32_t count) {
+    Real* dummy = record_.data() + std::size_t{count} * static_cast<std::size_t>(4 * groups_);
+    for (int k = 0; k < 4 * groups_; ++k) dummy[k] = dummyField(k);
+  }
+
+  std::uint64_t overflowed(int shares) const {
+    std::uint64_t sum = 0;
+    for (int share = 0; share < shares; ++share) sum += overflowed_[static_cast<std::size_t>(share)];
+    return sum;
+  }
+
+  /// All but the rows; the share's lists begin anew.
+  DensityJob<Real> densityJob(const CellGrid<Real>& grid, const Particles<Real>& p, const Real* wall_share, std::uint32_t count,
+                              int share) {
+    NeighborLists& lists = lists_[static_cast<std::size_t>(share)];
+    lists.used = 0;
+    DensityJob<Real> job;
+    job.grid = grid.view();
+    job.x = p.x.data();
+    job.y = p.y.data();
+    job.z = p.z.data();
+    job.radius = p.radius.data();
+    job.share = wall_share;
+    job.count = count;
+    job.groups = groups_;
+    job.mass_weight = constants_.mass_weight;
+    job.rest_density = constants_.rest_density;
+    job.stiffness = constants_.stiffness;
+    job.background = constants_.background;
+    job.pressure_floor = constants_.pressure_floor;
+    job.pressure_scale = constants_.pressure_scale;
+    job.symmetric = symmetric_;
+    job.reach2 = reach_ * reach_;
+    job.lists = &lists;
+    job.list_at = list_at_.data();
+    job.blocks = blocks_.data();
+    job.record = record_.data();
+    job.density = density_.data();
+    return job;
+  }
+
+  /// `job` with its SweepJob part filled, but for the rows.
+  template <class Job>
+  Job sweepJob(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int share, const Job& job) const {
+    Job own = job;
+    own.grid = grid.view();
+    own.count = count;
+    own.x = p.x.data();
+    own.y = p.y.data();
+    own.z = p.z.data();
+    own.record = record_.data();
+    own.entries = lists_[static_cast<std::size_t>(share)].entries;
+    own.list_at = list_at_.data();
+    own.blocks = blocks_.data();
+    own.reach2 = reach_ * reach_;
+    own.groups = groups_;
+    return own;
+  }
+
+  static ForceFunction<Real> forceOf(const PassTable<Real>& table, PairSet set, bool viscous, bool platelets) {
+    if (!viscous) set.viscosity = ViscosityTerm::none;
+    if (!platelets) set.platelets = false;
+    return table.force[set.index()];
   }
 
   void packRadius(Real* record, Real radius) const {
@@ -256,8 +361,7 @@ class PairPasses {
   }
 
   DensityFunction<Real> density_function_;
-  ForceFunction<Real> force_function_;
-  ForceFunction<Real> inviscid_function_;
+  std::array<std::array<ForceFunction<Real>, 2>, 2> force_functions_;  // [with viscosity][with platelets]
   bool symmetric_;
   bool planar_;
   int groups_;

@@ -23,6 +23,13 @@ HWY_INLINE typename L::V complementOf(typename L::V q2) {
   return L::max(L::set(Real(1)) - L::sqrt(q2), L::set(Real(0)));
 }
 
+/// 1/q2, no more than 1e12: what divides by a distance takes its root times this, so that root and division run side by side.
+template <class L>
+HWY_INLINE typename L::V inverseSquare(typename L::V q2) {
+  using Real = typename L::Scalar;
+  return L::set(Real(1)) / L::max(q2, L::set(Real(1e-12)));
+}
+
 template <class L>
 struct Poly6 {
   using V = typename L::V;
@@ -33,15 +40,15 @@ struct Poly6 {
   }
 };
 
-/// Its gradient has no limit at r = 0: below h/1e6 it stays, so that a particle on another's spot (or the particle itself) gets
-/// x_j - x_i = 0 times a number.
+/// Its gradient has no limit at r = 0: from h/1e6 down it falls to nothing, so that a particle on another's spot (or the particle
+/// itself) adds nothing.
 template <class L>
 struct Spiky {
   using V = typename L::V;
   using Real = typename L::Scalar;
   HWY_INLINE static V gradient(V q2) {
     const V t = complementOf<L>(q2);
-    return t * t / L::max(L::sqrt(q2), L::set(Real(1e-6)));
+    return t * t * (L::sqrt(q2) * inverseSquare<L>(q2));
   }
 };
 

@@ -29,17 +29,18 @@ struct DensityJob {
   const Real* x = nullptr;  ///< position / h
   const Real* y = nullptr;
   const Real* z = nullptr;
-  const Real* share = nullptr;  ///< the tissue's share of density, 1; null without tissue
-  std::uint32_t count = 0;      ///< particles; record `count` is the far dummy
-  int groups = 1;               ///< record groups
-  Real reach2 = 1;              ///< squared search radius / h^2: 1, or of the largest particle with (34)
-  Real mass_weight = 0;         ///< m / h^3 * the kernel's norm: density = mass_weight * sum of the kernel's polynomial
-  Real rest_density = 0;        ///< kg/m^3
-  Real stiffness = 0;           ///< c0^2, m^2/s^2; 0 without pressure
-  Real background = 0;          ///< Pa
-  Real pressure_floor = 0;      ///< Pa: 0, or none in the literal model
-  Real pressure_scale = 0;      ///< makes the record's pressure term, kRecordPressure
-  bool symmetric = false;       ///< kRecordPressure is for (17)
+  const Real* radius = nullptr;  ///< own support radius / h; null without (34)
+  const Real* share = nullptr;   ///< the tissue's share of density, 1; null without tissue
+  std::uint32_t count = 0;       ///< particles; record `count` is the far dummy
+  int groups = 1;                ///< record groups
+  Real reach2 = 1;               ///< squared search radius / h^2: 1, or of the largest particle with (34)
+  Real mass_weight = 0;          ///< m / h^3 * the kernel's norm: density = mass_weight * sum of the kernel's polynomial
+  Real rest_density = 0;         ///< kg/m^3
+  Real stiffness = 0;            ///< c0^2, m^2/s^2; 0 without pressure
+  Real background = 0;           ///< Pa
+  Real pressure_floor = 0;       ///< Pa: 0, or none in the literal model
+  Real pressure_scale = 0;       ///< makes the record's pressure term, kRecordPressure
+  bool symmetric = false;        ///< kRecordPressure is for (17)
 
   NeighborLists* lists = nullptr;
   std::uint32_t* list_at = nullptr;  ///< per particle, in the share's entries

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "tests/unit/sph/pass_rig.h"
 
@@ -95,6 +96,40 @@ INSTANTIATE_TEST_SUITE_P(All, ReferencePass,
                          [](const testing::TestParamInfo<std::tuple<PairSet, std::array<bool, 3>>>& tested) {
                            return nameOf(std::get<0>(tested.param)) + "_" + nameOf(std::get<1>(tested.param));
                          });
+
+/// 20 layers of 12 x 12: more rows than a chunk and a layer hold, also for the share of a fifth.
+TEST(PairPasses, DensitiesAndForcesAtOnceGiveTheSameBits) {
+  for (const PairSet set : {PairSet{PressureTerm::variational, ViscosityTerm::uniform},
+                            PairSet{PressureTerm::symmetric, ViscosityTerm::harmonic, true, true, true}}) {
+    WorldDescription description = withPairSet(test::periodicBox({12, 12, 20}, 0.3), set);
+    description.domain.periodic = {false, false, false};
+    const PassRig<float> apart{description, SimdTarget::automatic, stirred(description)};
+    for (const int shares : {1, 2, 3, 5, 40}) {
+      PassRig<float> at_once{description, SimdTarget::automatic, stirred(description), shares};
+      at_once.runAtOnce();
+      EXPECT_EQ(apart.density(), at_once.density()) << shares << " shares";
+      EXPECT_EQ(apart.acceleration(), at_once.acceleration()) << shares << " shares";
+      EXPECT_EQ(apart.plateletRate(), at_once.plateletRate()) << shares << " shares";
+      EXPECT_EQ(at_once.overflowed(), 0u);
+    }
+  }
+}
+
+TEST(PairPasses, RepulsionOfAnyPowersEqualsBruteForce) {
+  const PairSet set{PressureTerm::none, ViscosityTerm::none, false, true};
+  for (const auto& [higher, lower] : {std::pair{6, 4}, std::pair{5, 2}, std::pair{2, 1}, std::pair{7, 4}, std::pair{12, 6}}) {
+    WorldDescription description = scene(set, {true, true, true});
+    description.effects.repulsion->power_1 = higher;
+    description.effects.repulsion->power_2 = lower;
+    for (const SimdTarget target : availableSimdTargets()) {
+      const PassRig<float> rig{description, target, stirred(description)};
+      const OracleFields oracle = bruteForce(description, set, rig.rounded());
+      const double scale = largestNorm(oracle.acceleration);
+      ASSERT_GT(scale, 1.0);
+      EXPECT_LE(largestDifference(rig.acceleration(), oracle.acceleration), 1e-5 * scale) << higher << ", " << lower;
+    }
+  }
+}
 
 TEST(PairPasses, WithTheCubicSplineEqualsBruteForce) {
   for (const PressureTerm pressure : {PressureTerm::variational, PressureTerm::symmetric}) {

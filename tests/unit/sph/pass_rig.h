@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +33,18 @@ class PassRig : public test::ParticleRig<Real> {
   const std::vector<double>& plateletRate() const { return platelet_rate_; }
   std::uint64_t overflowed() const { return overflowed_; }
 
+  /// Once more, with the sound model's forces close behind the densities. Not with periodic sides.
+  void runAtOnce() {
+    double force_part = 0.0;
+    PairPasses<Real>& passes = this->passes_;
+    std::fill_n(passes.acceleration(), std::size_t{this->count_} * 4, Real(0));
+    overflowed_ = passes.densityAndSweep(this->grid_, this->sorted_, nullptr, this->count_, this->shares_, *this->executor_,
+                                         passes.forceFunction(true, true), passes.forceJob(), force_part);
+    EXPECT_GT(force_part, 0.0);
+    EXPECT_LT(force_part, 1.0);
+    read();
+  }
+
   /// The product of the implicit viscosity with the velocities, m/s^2, and its mean diagonal in `diagonal`.
   std::vector<Vec3> viscousProduct(SimdTarget target, const WorldDescription& description, std::vector<double>& diagonal) {
     const auto& sweeps = test::sweepsOf<Real>(sweepChoice(description), target);
@@ -56,10 +69,16 @@ class PassRig : public test::ParticleRig<Real> {
     PairPasses<Real>& passes = this->passes_;
     overflowed_ = passes.density(this->grid_, this->sorted_, nullptr, this->count_, this->shares_, *this->executor_);
     if (literal_) {
+      literal_->thicken(this->sorted_, passes, this->count_, this->shares_, *this->executor_);
       literal_->add(this->grid_, this->sorted_, passes, this->count_, this->shares_, *this->executor_);
     } else {
-      passes.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true);
+      passes.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true, true);
     }
+    read();
+  }
+
+  void read() {
+    const PairPasses<Real>& passes = this->passes_;
     acceleration_ = this->vectorsOf(passes.acceleration());
     density_.resize(this->count_);
     platelet_rate_.resize(this->count_);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <vector>
 
 #include "tests/support/scenes.h"
 #include "tests/unit/sph/thinning.h"
@@ -63,6 +64,43 @@ TEST(Platelets, AirTakesThoseOfIsolatedParticlesAndLeavesTheMiddle) {
   EXPECT_EQ(middle, 27);
 }
 
+// P/(1 + k_a t) with the t of all steps since the time before.
+TEST(Platelets, AreAdvancedEveryEighthStepByTheTimeOfAll) {
+  WorldDescription description = test::freeBlock({1, 1, 1});
+  description.effects.platelets = still();
+  description.effects.platelets->air_rate = 1.0;
+  const auto world = test::makeWorld(description);
+  std::vector<std::uint64_t> advanced;
+  float platelet = 0.99f;
+  double since = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    ASSERT_TRUE(world->step(1.0).ok());
+    const float now = test::frameOf(*world).platelet[0];
+    if (now == platelet) continue;
+    EXPECT_NEAR(now, double(platelet) / (1.0 + world->time() - since), 2e-7);
+    advanced.push_back(world->stepCount());
+    platelet = now;
+    since = world->time();
+  }
+  EXPECT_EQ(advanced, (std::vector<std::uint64_t>{9, 17, 25, 33}));
+}
+
+// No sink may act for longer than 1/200 of its time at once.
+TEST(Platelets, AreAdvancedMoreOftenWhereTheyClotFast) {
+  WorldDescription description = test::freeBlock({1, 1, 1});
+  description.effects.platelets = still();
+  description.effects.platelets->air_rate = 1.0;
+  description.effects.platelets->clot_speedup = 1e4;
+  const auto world = test::makeWorld(description);
+  float platelet = 0.99f;
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_TRUE(world->step(1.0).ok());
+    const float now = test::frameOf(*world).platelet[0];
+    EXPECT_LT(now, platelet);
+    platelet = now;
+  }
+}
+
 // A_w is 1 half a spacing from tissue and 0 at h = 2.5 dx, where the third row stands.
 TEST(Platelets, TissueTakesThoseOfTheFirstRows) {
   WorldDescription description = test::closedBox({8, 8, 8});
@@ -91,7 +129,7 @@ TEST(Platelets, ShearKeepsBloodLiquid) {
     WorldDescription description = withFlow(test::freeBlock({7, 7, 7}), [](const Vec3& x) { return Vec3{200.0 * x.z(), 0, 0}; });
     description.effects.viscosity->rheology = NewtonianRheology{};
     description.effects.platelets = still();
-    description.effects.platelets->activation_rate = 10.0;
+    description.effects.platelets->activation_rate = 100.0;  // fast enough to be due in every step
     description.effects.platelets->shear_gate = gate;
     description.effects.platelets->fresh = 0.5;
     const auto world = test::makeWorld(description);

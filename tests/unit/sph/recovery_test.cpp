@@ -1,6 +1,7 @@
 // The recovery ladder: what starts it, each rung, and that a step which was taken back leaves nothing behind.
 #include "service/sph/recovery.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -15,31 +16,41 @@ namespace {
 
 constexpr double kAnyStep = std::numeric_limits<double>::infinity();
 
-/// What the next calls of the force pass, or of the implicit solve's product, give beside what they compute.
+/// What the next force passes, or the implicit solve's next products, give beside what they compute.
 template <class Real>
 struct Poison {
   ForceFunction<Real> force = nullptr;                       // the pass itself
   SweepFunction<ViscousProductJob<Real>> product = nullptr;  // the sweep itself
-  int calls = 0;                                             // left
+  int passes = 0;                                            // left
   std::uint32_t first = 0, last = 0;                         // particles in storage order, last excluded
   Real value = 0;                                            // of the x component
 };
 template <class Real>
 Poison<Real> poison;
 
+/// Of a pass, whose particles may come in several calls, from the first on.
+template <class Real>
+void addPoison(const SweepJob<Real>& job, Real* vectors) {
+  Poison<Real>& active = poison<Real>;
+  const std::uint32_t begin = job.grid.rowBegin(job.row_begin);
+  const std::uint32_t end = job.grid.rowBegin(job.row_end);
+  if (active.passes <= 0) return;
+  for (std::uint32_t i = std::max(begin, active.first); i < std::min(end, active.last); ++i) {
+    vectors[std::size_t{i} * 4] = active.value;
+  }
+  if (begin < active.last && active.last <= end) --active.passes;
+}
+
 template <class Real>
 void poisonedForce(const ForceJob<Real>& job) {
   poison<Real>.force(job);
-  if (poison<Real>.calls-- <= 0) return;
-  for (std::uint32_t i = poison<Real>.first; i < poison<Real>.last; ++i)
-    job.acceleration[std::size_t{i} * 4] = poison<Real>.value;
+  addPoison(job, job.acceleration);
 }
 
 template <class Real>
 void poisonedProduct(const ViscousProductJob<Real>& job) {
   poison<Real>.product(job);
-  if (poison<Real>.calls-- <= 0) return;
-  for (std::uint32_t i = poison<Real>.first; i < poison<Real>.last; ++i) job.product[std::size_t{i} * 4] = poison<Real>.value;
+  addPoison(job, job.product);
 }
 
 /// A world whose passes can be poisoned; all particles are on one thread.
@@ -77,8 +88,8 @@ class PoisonedWorld {
 };
 
 template <class Real>
-void poisonCalls(int calls, std::uint32_t first, std::uint32_t last, Real value) {
-  poison<Real>.calls = calls;
+void poisonPasses(int passes, std::uint32_t first, std::uint32_t last, Real value) {
+  poison<Real>.passes = passes;
   poison<Real>.first = first;
   poison<Real>.last = last;
   poison<Real>.value = value;
@@ -118,7 +129,7 @@ TYPED_TEST(Recovery, halvesUntilForcesAreFinite) {
   ASSERT_GT(test::counterOf(*plain, Counter::emission_refused), 0u) << "the world must be full";
   double quarter = 0.0;
   for (int turn = 0; turn < 20; ++turn) {
-    poisonCalls<TypeParam>(2, 17, 18, this->kNan);
+    poisonPasses<TypeParam>(2, 17, 18, this->kNan);
     ASSERT_TRUE(hurt->step(kAnyStep).ok());
     quarter = test::statsOf(*hurt).dt;
     ASSERT_TRUE(plain->step(quarter).ok());
@@ -140,7 +151,7 @@ TYPED_TEST(Recovery, halvesUntilForcesAreFinite) {
 TYPED_TEST(Recovery, freezesTheOffenderAlone) {
   PoisonedWorld<TypeParam> world{test::freeBlock({6, 6, 6})};
   ASSERT_TRUE(world->step(kAnyStep).ok());
-  poisonCalls<TypeParam>(6, 40, 41, this->kNan);
+  poisonPasses<TypeParam>(6, 40, 41, this->kNan);
   ASSERT_TRUE(world->step(kAnyStep).ok());
   EXPECT_FALSE(world->faulted());
   EXPECT_EQ(test::counterOf(*world, Counter::step_retried), 4u);
@@ -157,7 +168,7 @@ TYPED_TEST(Recovery, freezesTheOffenderAlone) {
 // An infinite force has a direction, so it is capped: v = a_cap dt/2 along it after a step of dt from rest.
 TYPED_TEST(Recovery, capsAnInfiniteForce) {
   PoisonedWorld<TypeParam> world{test::freeBlock({6, 6, 6})};
-  poisonCalls<TypeParam>(6, 40, 41, -this->kInfinity);
+  poisonPasses<TypeParam>(6, 40, 41, -this->kInfinity);
   ASSERT_TRUE(world->step(kAnyStep).ok());
   const WorldStats stats = test::statsOf(*world);
   EXPECT_EQ(test::counterOf(*world, Counter::particle_frozen), 0u);
@@ -173,7 +184,7 @@ TYPED_TEST(Recovery, faultsWhenNothingIsFinite) {
   for (int step = 0; step < 30; ++step) ASSERT_TRUE(world->step(kAnyStep).ok());
   const std::uint64_t before = world->stateHash();
   const WorldStats earlier = test::statsOf(*world);
-  poisonCalls<TypeParam>(1000, 0, earlier.particles, this->kNan);
+  poisonPasses<TypeParam>(1000, 0, earlier.particles, this->kNan);
   const Status status = world->step(kAnyStep);
   EXPECT_EQ(status.code(), StatusCode::internal);
   EXPECT_TRUE(world->faulted());
@@ -196,7 +207,7 @@ TYPED_TEST(Recovery, leavesAnImplicitSolveOut) {
   scene.effects.viscosity->viscosity = 10.0;
   scene.effects.viscosity->solve = ViscositySolve::implicit;
   PoisonedWorld<TypeParam> solved{scene};
-  poisonCalls<TypeParam>(1000, 40, 41, this->kNan);
+  poisonPasses<TypeParam>(1000, 40, 41, this->kNan);
   ASSERT_TRUE(solved->step(kAnyStep).ok());
   EXPECT_EQ(test::counterOf(*solved, Counter::step_retried), 4u);
   EXPECT_EQ(test::counterOf(*solved, Counter::viscosity_unsolved), 1u);

@@ -233,7 +233,7 @@ class Refusals : public testing::Test {
     return changed;
   }
   /// Where the scalars end and the particles' positions begin.
-  std::size_t arrays() const { return (21 + static_cast<std::size_t>(Counter::count)) * 8; }
+  std::size_t arrays() const { return (23 + static_cast<std::size_t>(Counter::count)) * 8; }
   std::size_t count() const {
     std::uint64_t count = 0;
     std::memcpy(&count, state_.data() + 4 * 8, sizeof count);
@@ -266,6 +266,8 @@ TEST_F(Refusals, TellWhatIsWrong) {
       {with(104, std::numeric_limits<double>::infinity()), "limit of the time step"},
       {with(144, 100.0), "reach of the neighbour search"},
       {with(152, std::uint64_t{2}), "no implicit viscosity"},
+      {with(168, std::uint64_t{1} << 40), "clotting is due too late"},
+      {with(176, -1.0), "time is not a time"},
       {with(arrays(), kNan), "position is not finite"},
       {with(arrays() + n - 4, 1e6F), "outside the domain"},  // the last particle, which no wound drives
       {with(arrays() + 3 * n, 1e4F), "velocity"},
