@@ -15,7 +15,7 @@ namespace bleedsim::lab {
 namespace {
 
 constexpr int kWarmUpSteps = 5;  // pages, caches and lists
-constexpr double kTurn = 0.05;   // s
+constexpr double kTurn = 0.02;   // s
 constexpr int kMostStepsInTurn = 500;
 constexpr std::size_t kStages = static_cast<std::size_t>(sph::Stage::count);
 
@@ -35,6 +35,8 @@ class Runner {
   }
 
   Status turn() {
+    // What ran before has the caches.
+    if (Status status = step(); !status.ok()) return status;
     sph::WorldStats before;
     world_->collectStats(before);
     double updates = 0.0;
@@ -56,8 +58,8 @@ class Runner {
     return {};
   }
 
-  CaseOutcome outcome() const {
-    CaseOutcome outcome;
+  MeasuredCase outcome() const {
+    MeasuredCase outcome;
     outcome.model = case_->model;
     outcome.scene = case_->scene;
     outcome.simd = sph::simdTargetName(world_->simdTarget());

@@ -1,8 +1,9 @@
 // What a step of the solver costs, stage by stage, and how far that is from what the machine can do.
 //
 // All cases are measured in turns, and the ceilings of the machine with them, so that a machine that gives more or less from one
-// second to the next does so to all alike. A turn is a few hundredths of a second of steps; every figure is the median of the
-// turns, told with the least and the most. The clock is the wall's: a step is all of World::step.
+// second to the next does so to all alike. A turn is about 0.02 s of steps, at least one, after one that is not counted and brings
+// its data back into the caches. Every figure is the median of the turns, told with the least and the most. The clock is the
+// wall's: a step is all of World::step.
 #pragma once
 
 #include <array>
@@ -43,7 +44,7 @@ struct BenchOptions {
   double seconds = 10.0;  ///< wall time after which no further turn begins, preparation apart
 };
 
-struct CaseOutcome {
+struct MeasuredCase {
   std::string model, scene, simd;
   std::uint32_t particles = 0;
   int threads = 1;
@@ -69,7 +70,7 @@ struct BenchOutcome {
   Machine machine;
   std::string build;
   std::vector<CeilingOutcome> ceilings;  ///< of each number of threads
-  std::vector<CaseOutcome> cases;
+  std::vector<MeasuredCase> cases;
 
   const CeilingOutcome& ceilingOf(int threads) const;
 };

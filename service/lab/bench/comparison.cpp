@@ -29,7 +29,7 @@ EarlierCase caseOf(const nlohmann::json& json) {
   return one;
 }
 
-bool isSame(const CaseOutcome& now, const EarlierCase& then) {
+bool isSame(const MeasuredCase& now, const EarlierCase& then) {
   const double off = static_cast<double>(now.particles) - static_cast<double>(then.particles);
   return now.model == then.model && now.scene == then.scene && now.threads == then.threads &&
          std::abs(off) <= kSameCount * now.particles;
@@ -40,7 +40,7 @@ std::string lineOf(std::string_view name, double now, double then) {
   return fmt::format("  {:<10} {:>8.4f} {:>8.4f} {:>7.3f}\n", name, now, then, then / now);
 }
 
-std::string linesOf(const CaseOutcome& now, const EarlierCase& then) {
+std::string linesOf(const MeasuredCase& now, const EarlierCase& then) {
   std::string text = fmt::format("\n{}: {:.3f} million particle-updates/s, {:.3f} then: {:.3f} times\n", titleOf(now),
                                  now.updates.median, then.updates, now.updates.median / then.updates);
   text += fmt::format("  {:<10} {:>8} {:>8} {:>7}\n", "stage", "us now", "us then", "times");
@@ -98,13 +98,13 @@ std::string comparisonOf(const BenchOutcome& now, const EarlierBench& then, cons
                         now.machine.processor, now.machine.cores);
   }
   text += "times: how many times as fast as then, above 1 is faster\n";
-  for (const CaseOutcome& one : now.cases) {
+  for (const MeasuredCase& one : now.cases) {
     const auto same = [&one](const EarlierCase& earlier) { return isSame(one, earlier); };
     const auto found = std::find_if(then.cases.begin(), then.cases.end(), same);
     text += found == then.cases.end() ? fmt::format("\n{}: not measured then\n", titleOf(one)) : linesOf(one, *found);
   }
   for (const EarlierCase& earlier : then.cases) {
-    const auto same = [&earlier](const CaseOutcome& one) { return isSame(one, earlier); };
+    const auto same = [&earlier](const MeasuredCase& one) { return isSame(one, earlier); };
     if (std::any_of(now.cases.begin(), now.cases.end(), same)) continue;
     text += fmt::format("\n{}, {} particles, {} thread{}: measured then only\n",
                         earlier.scene.empty() ? earlier.model : earlier.scene, earlier.particles, earlier.threads,

@@ -11,7 +11,8 @@ constexpr const char* kColumns =
     "equations "
     "and the\narrays of each stage, as service/lab/bench/work_count.h counts them; GFLOP/s and GB/s: those over the time; roof: "
     "part "
-    "of what the\nmachine's roofline allows, by the multiply-adds and the triad that were measured beside it; -: not counted\n";
+    "of what the\nmachine's roofline allows, by the multiply-adds and the triad that were measured beside it, above 100 % where "
+    "caches\nfeed a stage; -: not counted\n";
 
 /// GFLOP/s, or GB/s.
 double rateOf(double amount, double microseconds) { return microseconds > 0.0 ? 1e-3 * amount / microseconds : 0.0; }
@@ -25,7 +26,7 @@ std::string rowOf(std::string_view name, const Sampled& us, const Work& work, co
                      100.0 * rooflineShare(work, us.median, ceiling));
 }
 
-std::string tableOf(const CaseOutcome& one, const CeilingOutcome& ceiling) {
+std::string tableOf(const MeasuredCase& one, const CeilingOutcome& ceiling) {
   const Census& census = one.census;
   std::string text =
       fmt::format("\n{}, {}, dt {:.3g} us{}; {} turns of {} steps\n", titleOf(one), one.simd, 1e6 * one.dt,
@@ -47,7 +48,7 @@ void put(nlohmann::json& json, const std::string& name, const Sampled& value) {
   json[name + "_most"] = value.most;
 }
 
-nlohmann::json toJson(const CaseOutcome& one, const CeilingOutcome& ceiling) {
+nlohmann::json toJson(const MeasuredCase& one, const CeilingOutcome& ceiling) {
   nlohmann::json stages = nlohmann::json::array();
   for (std::size_t s = 0; s < one.stages.size(); ++s) {
     nlohmann::json stage{{"name", sph::stageName(static_cast<sph::Stage>(s))}};
@@ -90,7 +91,7 @@ nlohmann::json toJson(const CaseOutcome& one, const CeilingOutcome& ceiling) {
 
 }  // namespace
 
-std::string titleOf(const CaseOutcome& outcome) {
+std::string titleOf(const MeasuredCase& outcome) {
   return fmt::format("{}, {} particles, {} thread{}", outcome.scene.empty() ? outcome.model : outcome.scene, outcome.particles,
                      outcome.threads, outcome.threads == 1 ? "" : "s");
 }
@@ -103,7 +104,7 @@ std::string tablesOf(const BenchOutcome& outcome) {
                         one.gigabytes_s.median, one.gigabytes_s.least, one.gigabytes_s.most);
   }
   text += kColumns;
-  for (const CaseOutcome& one : outcome.cases) text += tableOf(one, outcome.ceilingOf(one.threads));
+  for (const MeasuredCase& one : outcome.cases) text += tableOf(one, outcome.ceilingOf(one.threads));
   return text;
 }
 
@@ -116,7 +117,7 @@ nlohmann::json toJson(const BenchOutcome& outcome) {
     ceilings.push_back(std::move(ceiling));
   }
   nlohmann::json cases = nlohmann::json::array();
-  for (const CaseOutcome& one : outcome.cases) cases.push_back(toJson(one, outcome.ceilingOf(one.threads)));
+  for (const MeasuredCase& one : outcome.cases) cases.push_back(toJson(one, outcome.ceilingOf(one.threads)));
   return {{"experiment", "bench"},
           {"machine", toJson(outcome.machine)},
           {"build", outcome.build},

@@ -15,6 +15,6 @@ std::string tablesOf(const BenchOutcome& outcome);
 nlohmann::json toJson(const BenchOutcome& outcome);
 
 /// "paper, 19683 particles, 1 thread", or with the path of the scene.
-std::string titleOf(const CaseOutcome& outcome);
+std::string titleOf(const MeasuredCase& outcome);
 
 }  // namespace bleedsim::lab

@@ -204,7 +204,7 @@ BenchOutcome toyOutcome() {
   outcome.machine = {.processor = "Toy", .cores = 2, .simd = "scalar", .version = "1", .date = "2026-01-01", .load = 0.0};
   outcome.build = "1.0-abc";
   outcome.ceilings = {{1, {100.0, 90.0, 110.0}, {20.0, 19.0, 21.0}}};
-  CaseOutcome one;
+  MeasuredCase one;
   one.model = "reduced";
   one.simd = "scalar";
   one.particles = 1000;
@@ -321,7 +321,7 @@ TEST(MeasureCases, MeasuresEachCaseUnderTheCeilingsOfItsThreads) {
   ASSERT_TRUE(outcome.ok()) << outcome.status().message();
   ASSERT_EQ(outcome->cases.size(), cases.size());
   EXPECT_EQ(outcome->ceilings.size(), 2u);
-  for (const CaseOutcome& one : outcome->cases) {
+  for (const MeasuredCase& one : outcome->cases) {
     EXPECT_EQ(one.particles, 1000u);
     EXPECT_GE(one.turns, kLeastBenchTurns);
     EXPECT_GT(one.updates.median, 0.0);
