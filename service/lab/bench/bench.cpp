@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <fmt/core.h>
 #include <limits>
 #include <memory>
@@ -17,6 +18,8 @@ namespace {
 constexpr int kWarmUpSteps = 5;  // pages, caches and lists
 constexpr double kTurn = 0.02;   // s
 constexpr int kMostStepsInTurn = 500;
+// A block creeps: after so many steps it is brought back to where it began.
+constexpr int kStillSteps = 64;
 constexpr std::size_t kStages = static_cast<std::size_t>(sph::Stage::count);
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -35,6 +38,7 @@ class Runner {
   }
 
   Status turn() {
+    if (Status status = bringBack(); !status.ok()) return status;
     // What ran before has the caches.
     if (Status status = step(); !status.ok()) return status;
     sph::WorldStats before;
@@ -98,12 +102,22 @@ class Runner {
       shortest = std::min(shortest, now() - start);
     }
     steps_ = static_cast<int>(std::clamp(std::round(kTurn / shortest), 1.0, double{kMostStepsInTurn}));
+    if (!(case_->step > 0.0)) return {};
+    steps_ = std::min(steps_, kStillSteps - 1);
+    start_.resize(world_->stateBytes());
+    if (world_->saveState(start_) == 0) return {StatusCode::internal, "the block's state cannot be kept"};
+    kept_at_ = world_->stepCount();
     return checkStep();
   }
 
-  /// A case with a step of its own must have taken it, or it is another case.
+  /// Restores a block before the turn that would take it too far.
+  Status bringBack() {
+    if (start_.empty() || world_->stepCount() + static_cast<std::uint64_t>(steps_) + 1 <= kept_at_ + kStillSteps) return {};
+    return world_->restoreState(start_);
+  }
+
+  /// A block must have taken its own step, or it is another case.
   Status checkStep() const {
-    if (!(case_->step > 0.0)) return {};
     sph::WorldStats stats;
     world_->collectStats(stats);
     if (stats.dt == case_->step) return {};
@@ -113,7 +127,9 @@ class Runner {
 
   const BenchCase* case_;
   std::unique_ptr<sph::World> world_;
-  int steps_ = 1;  // in a turn
+  std::vector<std::byte> start_;  // a block's state after the warm-up
+  std::uint64_t kept_at_ = 0;     // step of that state
+  int steps_ = 1;                 // in a turn
   int iterations_ = 0;
   double dt_ = 0.0;
   std::vector<double> updates_, microseconds_;

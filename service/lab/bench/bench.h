@@ -1,9 +1,10 @@
 // What a step of the solver costs, stage by stage, and how far that is from what the machine can do.
 //
 // All cases are measured in turns, and the ceilings of the machine with them, so that a machine that gives more or less from one
-// second to the next does so to all alike. A turn is about 0.02 s of steps, at least one, after one that is not counted and brings
-// its data back into the caches. Every figure is the median of the turns, told with the least and the most. The clock is the
-// wall's: a step is all of World::step.
+// second to the next does so to all alike. A turn is about 0.02 s of steps, at least one, after one that is not counted and
+// brings its data back into the caches. Every figure is the median of the turns, told with the least and the most. The clock is
+// the wall's: a step is all of World::step. A still block is brought back to its start every 64 steps, so that a long measurement
+// sees the same neighbours as a short one.
 #pragma once
 
 #include <array>
@@ -34,7 +35,7 @@ struct BenchCase {
   std::string model;  ///< of the block; "scene"
   std::string scene;  ///< path; empty for a block
   sph::WorldDescription world;
-  double step = 0.0;     ///< s, of each step; 0: as long as is stable
+  double step = 0.0;     ///< of a block: s, of each step; 0: as long as is stable
   double warm_up = 0.0;  ///< simulated time before the measurement, s; a few steps in any case
   int threads = 1;
 };

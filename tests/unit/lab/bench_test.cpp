@@ -42,13 +42,13 @@ TEST(StillBlock, TakesItsOwnStepAndKeepsItsShape) {
     ASSERT_NE(world, nullptr) << name;
     ASSERT_EQ(world->particleCount(), 1000u) << name;
     const double before = takeCensus(*world).neighbors;
-    for (int k = 0; k < 50; ++k) ASSERT_TRUE(world->step(kBlockStep).ok()) << name;
+    for (int k = 0; k < 64; ++k) ASSERT_TRUE(world->step(kBlockStep).ok()) << name;
     sph::WorldStats stats;
     world->collectStats(stats);
     EXPECT_DOUBLE_EQ(stats.dt, kBlockStep) << name;
-    // Accelerations of at most some 100 m/s^2 over 100 us move nothing by more than a thousandth of a spacing.
-    EXPECT_LT(stats.max_speed, 0.1) << name;
-    EXPECT_NEAR(takeCensus(*world).neighbors, before, 0.2) << name;
+    // 0.3 m/s over 128 us are 0.04 spacings at most, where neighbours that come and go balance; (34) moves radii meanwhile.
+    EXPECT_LT(stats.max_speed, 0.3) << name;
+    EXPECT_NEAR(takeCensus(*world).neighbors, before, name == "full" ? 1.0 : 0.1) << name;
   }
 }
 
@@ -328,6 +328,8 @@ TEST(MeasureCases, MeasuresEachCaseUnderTheCeilingsOfItsThreads) {
     EXPECT_LE(one.updates.least, one.updates.median);
     EXPECT_GE(one.updates.most, one.updates.median);
     EXPECT_DOUBLE_EQ(one.dt, kBlockStep);
+    EXPECT_NEAR(one.census.neighbors, takeCensus(*worldOf(stillBlock(blockModelOf(one.model), 1000))).neighbors, 1.0)
+        << "brought back to its start";
     EXPECT_GT(one.bytes, 0.0);
     EXPECT_GT(outcome->ceilingOf(one.threads).gflops.median, 0.0);
     EXPECT_GT(outcome->ceilingOf(one.threads).gigabytes_s.median, 0.0);
