@@ -63,10 +63,9 @@ ExitCode run(const Arguments& arguments) {
     outcome = measureCases(*cases, {.simd = *target, .seconds = arguments.seconds}, [&](double part) { progress.report(part); });
   }
   if (!outcome) return fail(ExitCode::failed, outcome.status().message());
-  if (arguments.json != "-") {
-    fmt::print("{}", tablesOf(*outcome));
-    if (earlier) fmt::print("{}", comparisonOf(*outcome, *earlier, arguments.compare));
-  }
+  const bool json_only = arguments.json == "-";
+  if (!json_only) fmt::print("{}", tablesOf(*outcome));
+  if (earlier) fmt::print(json_only ? stderr : stdout, "{}", comparisonOf(*outcome, *earlier, arguments.compare));
   if (Status status = writeJson(arguments.json, toJson(*outcome)); !status.ok()) return fail(ExitCode::failed, status.message());
   return ExitCode::done;
 }
@@ -102,7 +101,9 @@ void addBenchCommand(CLI::App& app, Context& context) {
       ->check(finiteIn(0.0, 1000.0))
       ->needs(scene);
   command->add_option("--json", arguments->json, "Write JSON here; -: to stdout, in place of the tables")->type_name("FILE");
-  command->add_option("--compare", arguments->compare, "Earlier file of --json: print how many times as fast each stage is")
+  command
+      ->add_option("--compare", arguments->compare,
+                   "Earlier file of --json: print how many times as fast each stage is; to stderr with --json -")
       ->type_name("FILE");
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }

@@ -10,6 +10,7 @@
 #include "service/lab/bench/comparison.h"
 #include "service/lab/bench/report.h"
 #include "service/lab/bench/still_block.h"
+#include "service/scene/scene.h"
 
 namespace bleedsim::lab {
 namespace {
@@ -334,6 +335,15 @@ TEST(MeasureCases, MeasuresEachCaseUnderTheCeilingsOfItsThreads) {
     EXPECT_GT(outcome->ceilingOf(one.threads).gflops.median, 0.0);
     EXPECT_GT(outcome->ceilingOf(one.threads).gigabytes_s.median, 0.0);
   }
+}
+
+TEST(BenchScene, IsAPoolOfTwentyThousandWithFourWounds) {
+  const auto scene = scene::loadScene(BENCH_SCENE_DIR "/bowl_20k.textproto");
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  EXPECT_EQ(scene->world.wounds.size(), 4u);
+  const auto world = worldOf(scene->world);
+  ASSERT_NE(world, nullptr);
+  EXPECT_NEAR(world->particleCount(), 20000.0, 1000.0);
 }
 
 TEST(MeasureCases, SaysWhichCaseFailsAndWhy) {
