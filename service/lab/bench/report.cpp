@@ -26,13 +26,25 @@ std::string rowOf(std::string_view name, const Sampled& us, const Work& work, co
                      100.0 * rooflineShare(work, us.median, ceiling));
 }
 
-std::string tableOf(const MeasuredCase& one, const CeilingOutcome& ceiling) {
+/// How many times as fast as the same case on one thread; 0 where that was not measured, or is this one.
+double overOneThread(const BenchOutcome& outcome, const MeasuredCase& one) {
+  for (const MeasuredCase& other : outcome.cases) {
+    const bool same = other.model == one.model && other.scene == one.scene && other.particles == one.particles;
+    if (same && one.threads > 1 && other.threads == 1) return one.updates.median / other.updates.median;
+  }
+  return 0.0;
+}
+
+std::string tableOf(const BenchOutcome& outcome, const MeasuredCase& one) {
+  const CeilingOutcome& ceiling = outcome.ceilingOf(one.threads);
+  const double times = overOneThread(outcome, one);
   const Census& census = one.census;
   std::string text =
       fmt::format("\n{}, {}, dt {:.3g} us{}; {} turns of {} steps\n", titleOf(one), one.simd, 1e6 * one.dt,
                   one.warm_up > 0.0 ? fmt::format(", after {:g} simulated s", one.warm_up) : "", one.turns, one.steps);
   text += fmt::format("  {:.3f} million particle-updates/s ({:.3f} - {:.3f}); {:.1f} neighbours, {:.1f} tested for them\n",
                       one.updates.median, one.updates.least, one.updates.most, census.neighbors, census.candidates);
+  if (times > 0.0) text += fmt::format("  {:.2f} times as fast as one thread\n", times);
   text += fmt::format("  {:.0f} B of memory a particle, and {:.0f} B of neighbour lists\n", one.bytes, one.list_bytes);
   text += fmt::format("  {:<10} {:>8} {:<19} {:>7} {:>6} {:>8} {:>6} {:>6}\n", "stage", "us", "", "flop", "B", "GFLOP/s", "GB/s",
                       "roof");
@@ -48,7 +60,8 @@ void put(nlohmann::json& json, const std::string& name, const Sampled& value) {
   json[name + "_most"] = value.most;
 }
 
-nlohmann::json toJson(const MeasuredCase& one, const CeilingOutcome& ceiling) {
+nlohmann::json toJson(const BenchOutcome& outcome, const MeasuredCase& one) {
+  const CeilingOutcome& ceiling = outcome.ceilingOf(one.threads);
   nlohmann::json stages = nlohmann::json::array();
   for (std::size_t s = 0; s < one.stages.size(); ++s) {
     nlohmann::json stage{{"name", sph::stageName(static_cast<sph::Stage>(s))}};
@@ -83,6 +96,7 @@ nlohmann::json toJson(const MeasuredCase& one, const CeilingOutcome& ceiling) {
                       {"roofline_share", rooflineShare(total, us, ceiling)},
                       {"memory_bytes_per_particle", one.bytes},
                       {"list_bytes_per_particle", one.list_bytes}};
+  if (const double times = overOneThread(outcome, one); times > 0.0) json["over_one_thread"] = times;
   if (!one.scene.empty()) json["scene"] = one.scene;
   put(json, "m_updates_per_s", one.updates);
   put(json, "us_per_particle_step", one.microseconds);
@@ -104,7 +118,7 @@ std::string tablesOf(const BenchOutcome& outcome) {
                         one.gigabytes_s.median, one.gigabytes_s.least, one.gigabytes_s.most);
   }
   text += kColumns;
-  for (const MeasuredCase& one : outcome.cases) text += tableOf(one, outcome.ceilingOf(one.threads));
+  for (const MeasuredCase& one : outcome.cases) text += tableOf(outcome, one);
   return text;
 }
 
@@ -117,7 +131,7 @@ nlohmann::json toJson(const BenchOutcome& outcome) {
     ceilings.push_back(std::move(ceiling));
   }
   nlohmann::json cases = nlohmann::json::array();
-  for (const MeasuredCase& one : outcome.cases) cases.push_back(toJson(one, outcome.ceilingOf(one.threads)));
+  for (const MeasuredCase& one : outcome.cases) cases.push_back(toJson(outcome, one));
   return {{"experiment", "bench"},
           {"machine", toJson(outcome.machine)},
           {"build", outcome.build},

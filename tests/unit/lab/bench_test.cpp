@@ -257,6 +257,20 @@ TEST(BenchReport, HasAFieldForEverything) {
   }
 }
 
+TEST(BenchReport, TellsWhatThreadsGain) {
+  BenchOutcome outcome = toyOutcome();
+  EXPECT_FALSE(toJson(outcome).at("cases").at(0).contains("over_one_thread"));
+  MeasuredCase two = outcome.cases[0];
+  two.threads = 2;
+  two.updates.median = 7.0;
+  outcome.cases.push_back(two);
+  outcome.ceilings.push_back(outcome.ceilings[0]);
+  outcome.ceilings[1].threads = 2;
+  EXPECT_FALSE(toJson(outcome).at("cases").at(0).contains("over_one_thread"));
+  EXPECT_DOUBLE_EQ(toJson(outcome).at("cases").at(1).at("over_one_thread").get<double>(), 1.75);
+  EXPECT_THAT(tablesOf(outcome), HasSubstr("1.75 times as fast as one thread"));
+}
+
 TEST(BenchReport, ShowsMedianSpreadAndStages) {
   const std::string tables = tablesOf(toyOutcome());
   EXPECT_THAT(tables, HasSubstr("reduced, 1000 particles, 1 thread"));
