@@ -46,6 +46,12 @@ Result<std::vector<BenchCase>> casesOf(const Arguments& arguments) {
   return cases;
 }
 
+/// With its progress on stderr.
+Result<BenchOutcome> measured(const std::vector<BenchCase>& cases, const BenchOptions& options) {
+  Progress progress{"bench"};
+  return measureCases(cases, options, [&progress](double part) { progress.report(part); });
+}
+
 ExitCode run(const Arguments& arguments) {
   const auto target = sph::parseSimdTarget(arguments.simd);
   if (!target) return fail(ExitCode::usage, target.status().message());
@@ -57,11 +63,7 @@ ExitCode run(const Arguments& arguments) {
   }
   const auto cases = casesOf(arguments);
   if (!cases) return fail(ExitCode::usage, cases.status().message());
-  Result<BenchOutcome> outcome = Status{};
-  {
-    Progress progress{"bench"};
-    outcome = measureCases(*cases, {.simd = *target, .seconds = arguments.seconds}, [&](double part) { progress.report(part); });
-  }
+  const auto outcome = measured(*cases, {.simd = *target, .seconds = arguments.seconds});
   if (!outcome) return fail(ExitCode::failed, outcome.status().message());
   const bool json_only = arguments.json == "-";
   if (!json_only) fmt::print("{}", tablesOf(*outcome));
