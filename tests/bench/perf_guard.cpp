@@ -28,6 +28,7 @@ constexpr std::uint32_t kParticles = 1000;
 constexpr int kWarmUpSteps = 2;
 constexpr int kCountedSteps = 8;
 constexpr const char* kWound = "wound";
+constexpr const char* kClotting = "clotting";
 
 /// A pool on flat tissue, beside it a wound of 3 mm radius that bleeds on.
 sph::WorldDescription woundScene() {
@@ -57,8 +58,17 @@ sph::WorldDescription woundScene() {
   return scene;
 }
 
+/// The full block clots ten thousand times as fast and takes the longest steps: whatever platelets do seldom is due at each.
+sph::WorldDescription clottingBlock() {
+  sph::WorldDescription block = lab::stillBlock(lab::BlockModel::full, kParticles);
+  block.effects.platelets->clot_speedup = 1e4;
+  block.max_dt = std::numeric_limits<double>::infinity();
+  return block;
+}
+
 std::vector<std::string> caseNames() {
   std::vector<std::string> names = lab::blockModelNames();
+  names.emplace_back(kClotting);
   names.emplace_back(kWound);
   return names;
 }
@@ -73,8 +83,10 @@ int count(const std::string& name, const std::string& target_name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) return complain("no case '" + name + "'; see --list");
   const auto target = sph::parseSimdTarget(target_name);
   if (!target) return complain(target.status().message());
-  const bool still = name != kWound;
-  const sph::WorldDescription description = still ? lab::stillBlock(lab::blockModelOf(name), kParticles) : woundScene();
+  const bool still = name != kWound && name != kClotting;
+  const sph::WorldDescription description = still            ? lab::stillBlock(lab::blockModelOf(name), kParticles)
+                                            : name == kWound ? woundScene()
+                                                             : clottingBlock();
   auto world = sph::createWorld(description, {.threads = 1, .simd = *target});
   if (!world) return complain(world.status().message());
   const double limit = still ? lab::kBlockStep : std::numeric_limits<double>::infinity();

@@ -13,6 +13,11 @@ namespace {
 
 using Point = std::array<float, 3>;
 
+struct Near {
+  Point at;
+  float radius;
+};
+
 struct Sums {
   double neighbors = 0.0, listed = 0.0, candidates = 0.0, boxed = 0.0, surface = 0.0;
 };
@@ -104,7 +109,11 @@ class Counter {
   /// Collects into near_ what is within reach of the box of a cell's particles; returns how many were looked at.
   std::uint32_t gather(std::span<const sph::NeighborRun<float>> runs, std::uint32_t begin, std::uint32_t end) {
     sph::Bounds<float> box;
-    for (std::uint32_t i = begin; i < end; ++i) box.include(points_[i][0], points_[i][1], points_[i][2]);
+    float largest = 1.0F;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      box.include(points_[i][0], points_[i][1], points_[i][2]);
+      largest = std::max(largest, radii_[i]);
+    }
     near_.clear();
     std::uint32_t seen = 0;
     for (const sph::NeighborRun<float>& run : runs) {
@@ -116,7 +125,8 @@ class Counter {
           const float off = std::max({box.lower[a] - p[a], p[a] - box.upper[a], 0.0F});
           square += off * off;
         }
-        if (square < reach_ * reach_) near_.push_back(p);
+        const float reach = literal_ ? reach_ : std::max(largest, radii_[j]);
+        if (square < reach * reach) near_.push_back({p, radii_[j]});
       }
     }
     return seen;
@@ -124,11 +134,11 @@ class Counter {
 
   void addParticle(std::uint32_t i, Sums& sums) const {
     const float own = radii_[i];
-    const float listed = !own_radii_ ? 1.0F : literal_ ? std::max(1.0F, own) : reach_;
     sph::Vec3 normal = sph::Vec3::Zero();
     int neighbors = -1;  // the particle itself is near
-    for (const Point& p : near_) {
-      const Point d{p[0] - points_[i][0], p[1] - points_[i][1], p[2] - points_[i][2]};
+    for (const Near& near : near_) {
+      const Point d{near.at[0] - points_[i][0], near.at[1] - points_[i][1], near.at[2] - points_[i][2]};
+      const float listed = std::max({1.0F, own, literal_ ? 1.0F : near.radius});
       const float square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
       if (square < listed * listed) sums.listed += 1.0;
       if (square >= own * own) continue;
@@ -159,7 +169,7 @@ class Counter {
   sph::CellGrid<float> grid_;
   std::vector<Point> points_;  // in cell order, in support radii
   std::vector<float> radii_;
-  std::vector<Point> near_;
+  std::vector<Near> near_;
 };
 
 }  // namespace

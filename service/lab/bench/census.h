@@ -10,8 +10,9 @@ namespace bleedsim::lab {
 /// Means over the particles, in each step.
 struct Census {
   std::uint32_t particles = 0;
-  double neighbors = 0.0;   ///< other particles within a particle's own support radius
-  double listed = 0.0;      ///< particles within the reach of its list, itself included: what the pair loops walk
+  double neighbors = 0.0;  ///< other particles within a particle's own support radius
+  double listed = 0.0;  ///< particles within the larger radius of the two (the literal model: its own), itself included: what the
+                        ///< pair loops have to walk
   double candidates = 0.0;  ///< tested by their distance: those of the 27 cells that are near the box of the cell's particles
   double boxed = 0.0;       ///< of the 27 cells, tested against that box once for all particles of a cell, and shared among them
   double surface = 0.0;     ///< share of the particles whose curvature tension acts; 0 without tension, tissue not counted

@@ -1,6 +1,8 @@
 #include "service/lab/bench/work_count.h"
 
-#include "service/sph/effects/shear_rate.h"
+#include <algorithm>
+#include <variant>
+
 #include "service/sph/world_setup.h"
 
 namespace bleedsim::lab {
@@ -69,7 +71,8 @@ Work forceWork(const sph::WorldDescription& scene, const Census& census, double 
   const bool literal = isLiteral(scene);
   Work work{census.listed * pairFlops(scene, iterations > 0), sweepBytes(census, record) + kAcceleration};
   if (literal) return work;
-  if (sph::shearRateNeeded(scene.effects)) {
+  const auto& viscosity = scene.effects.viscosity;
+  if (viscosity && !std::holds_alternative<sph::NewtonianRheology>(viscosity->rheology)) {
     work += {census.listed * (soundGradientFlops(scene) + 38.0), sweepBytes(census, record) + 64.0};
   }
   if (scene.effects.surface_tension) {
@@ -104,7 +107,6 @@ double pairFlops(const sph::WorldDescription& scene, bool implicit_viscosity) {
   double flops = soundGradientFlops(scene) + pressureFlops(set.pressure);
   if (!implicit_viscosity && set.viscosity == sph::ViscosityTerm::uniform) flops += 14.0;
   if (!implicit_viscosity && set.viscosity == sph::ViscosityTerm::harmonic) flops += 16.0;
-  if (set.platelets) flops += 9.0;
   if (set.repulsion) flops += 31.0 + scene.effects.repulsion->power_1 + scene.effects.repulsion->power_2;
   return flops;
 }

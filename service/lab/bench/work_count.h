@@ -7,7 +7,8 @@
 // flops  An add, multiply, divide, square root, minimum, maximum or compare is one; a fused multiply-add two. Pair terms are
 //        multiplied by the length of the lists, the search by its tests (census.h); padding is not counted. What is done once for
 //        each particle is counted where it is arithmetic of motion and density, and left out where it is small beside the pairs
-//        (clotting, rheology, radii, tension's normals).
+//        (rheology, radii, tension's normals). The sound model's platelets are left out, whose diffusion, shear gate and clotting
+//        need not act in every step.
 // bytes  Each array that a stage reads or writes moves once: four bytes a number, 16 a list of accelerations, the records by the
 //        groups that the effects need, lists by their entries. A cache that holds everything between two stages would move less,
 //        one that holds nothing more.

@@ -80,7 +80,7 @@ TEST_F(PerfGuardTest, RefusesWhatHoldsNoCounts) {
 TEST_F(PerfGuardTest, TheReferenceHasEveryCase) {
   const test::Finished judged = test::runProcess({PERF_GUARD, "--judge", INSTRUCTIONS});
   EXPECT_EQ(judged.code, 0) << judged.output;
-  for (const char* name : {"paper", "reduced", "full", "wound"}) {
+  for (const char* name : {"paper", "reduced", "full", "clotting", "wound"}) {
     for (const char* target : {"scalar", "avx2"}) {
       EXPECT_THAT(judged.output, HasSubstr(std::string{"ok "} + name + " " + target + ": ")) << judged.output;
     }

@@ -160,6 +160,16 @@ TEST(Work, OfThePapersPairByHand) {
   EXPECT_DOUBLE_EQ(pairFlops(stillBlock(BlockModel::paper, 1000), false), 79.0);
 }
 
+TEST(Work, OfTheSoundModelsPlateletsIsLeftOut) {
+  sph::WorldDescription scene = stillBlock(BlockModel::full, 1000);
+  const Work with = totalOf(workOf(scene, kToy, 0));
+  scene.effects.platelets.reset();
+  EXPECT_DOUBLE_EQ(totalOf(workOf(scene, kToy, 0)).flops, with.flops);
+  scene.effects.viscosity->rheology = sph::CassonRheology{};
+  // Its shear rates need a sweep in every step: geometry and the slope with both radii, then the moments.
+  EXPECT_DOUBLE_EQ(totalOf(workOf(scene, kToy, 0)).flops - with.flops, 10.0 * (8.0 + 16.0 + 38.0));
+}
+
 TEST(Work, OfTensionGoesWithTheSurface) {
   const sph::WorldDescription scene = stillBlock(BlockModel::full, 1000);
   Census inside = kToy;
