@@ -43,6 +43,7 @@ int runLab(int argc, const char* const* argv) {
   addValidateCommand(app, context);
   addAccuracyCommand(app, context);
   addChooseCommand(app, context);
+  addBenchCommand(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -26,6 +26,7 @@ struct Context {
 /// Prints "bleedlab: MESSAGE" to stderr and gives the code back.
 ExitCode fail(ExitCode code, const std::string& message);
 
+void addBenchCommand(CLI::App& app, Context& context);
 void addEffectsCommand(CLI::App& app, Context& context);
 void addHardCasesCommand(CLI::App& app, Context& context);
 void addPaperCommand(CLI::App& app, Context& context);

@@ -18,11 +18,11 @@ constexpr std::uint32_t kEveryAttribute =
 
 std::size_t indexOf(sph::Counter counter) { return static_cast<std::size_t>(counter); }
 
-Figure countOf(const char* name, std::uint64_t value) { return {name, static_cast<double>(value), 0.0, 0.0, true}; }
+HardFigure countOf(const char* name, std::uint64_t value) { return {name, static_cast<double>(value), 0.0, 0.0, true}; }
 
 }  // namespace
 
-std::vector<Figure> Always::figures() const {
+std::vector<HardFigure> Always::figures() const {
   return {{"steps", static_cast<double>(steps), 0.0, kAnything, false},
           countOf("particle-steps that are not finite", not_finite),
           {"smallest distance to tissue, dx", deepest, kDeepest, kAnything, true},
@@ -34,8 +34,8 @@ std::vector<Figure> Always::figures() const {
 }
 
 bool Always::holds() const {
-  const std::vector<Figure> all = figures();
-  return std::all_of(all.begin(), all.end(), [](const Figure& figure) { return figure.holds(); });
+  const std::vector<HardFigure> all = figures();
+  return std::all_of(all.begin(), all.end(), [](const HardFigure& figure) { return figure.holds(); });
 }
 
 AlwaysWatch::AlwaysWatch(const sph::World& world, Always& worst) : worst_{worst} {

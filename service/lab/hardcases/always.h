@@ -25,7 +25,7 @@ struct Always {
 
   /// None of them broken.
   bool holds() const;
-  std::vector<Figure> figures() const;
+  std::vector<HardFigure> figures() const;
 };
 
 /// Looks at one world after each of its steps.

@@ -6,7 +6,7 @@
 
 namespace bleedsim::lab {
 
-Trial::Trial(std::unique_ptr<sph::World> world, CaseOutcome& outcome, Always& always)
+Trial::Trial(std::unique_ptr<sph::World> world, HardOutcome& outcome, Always& always)
     : world_{std::move(world)}, outcome_{outcome}, watch_{*world_, always} {}
 
 Trial::~Trial() {
@@ -96,7 +96,7 @@ void CaseRun::within(std::string name, double value, double lowest, double highe
 
 void CaseRun::told(std::string name, double value) { outcome_.figures.push_back({std::move(name), value, 0.0, 0.0, false}); }
 
-CaseOutcome CaseRun::finish() && {
+HardOutcome CaseRun::finish() && {
   outcome_.always = always_.figures();
   return std::move(outcome_);
 }

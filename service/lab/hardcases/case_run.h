@@ -14,7 +14,7 @@ namespace bleedsim::lab {
 /// One world of a case. A step that fails ends the case; the functions then return false.
 class Trial {
  public:
-  Trial(std::unique_ptr<sph::World> world, CaseOutcome& outcome, Always& always);
+  Trial(std::unique_ptr<sph::World> world, HardOutcome& outcome, Always& always);
   ~Trial();
   Trial(const Trial&) = delete;
   Trial& operator=(const Trial&) = delete;
@@ -39,7 +39,7 @@ class Trial {
 
  private:
   std::unique_ptr<sph::World> world_;
-  CaseOutcome& outcome_;
+  HardOutcome& outcome_;
   AlwaysWatch watch_;
 };
 
@@ -71,11 +71,11 @@ class CaseRun {
     all() ? told(std::move(name), value) : atMost(std::move(name), value, bound);
   }
 
-  CaseOutcome finish() &&;
+  HardOutcome finish() &&;
 
  private:
   CaseSetup setup_;
-  CaseOutcome outcome_;
+  HardOutcome outcome_;
   Always always_;
 };
 

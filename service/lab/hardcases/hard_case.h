@@ -26,7 +26,7 @@ struct CaseSetup {
 };
 
 /// A number and the range that it must lie in.
-struct Figure {
+struct HardFigure {
   std::string name;
   double value = 0.0;
   double lowest = 0.0, highest = 0.0;  ///< infinite: no such bound
@@ -36,9 +36,9 @@ struct Figure {
   bool holds() const { return !judged || (value >= lowest && value <= highest); }
 };
 
-struct CaseOutcome {
-  std::vector<Figure> figures;                                                          ///< of the case
-  std::vector<Figure> always;                                                           ///< physics.md section 6, "always"
+struct HardOutcome {
+  std::vector<HardFigure> figures;                                                      ///< of the case
+  std::vector<HardFigure> always;                                                       ///< physics.md section 6, "always"
   std::array<std::uint64_t, static_cast<std::size_t>(sph::Counter::count)> counters{};  ///< of all its worlds
   std::string stopped;  ///< why it ended early: a refusal or a fault; empty if it ran to its end
 
@@ -57,6 +57,6 @@ struct HardCase {
 /// By rising number.
 std::span<const HardCase> hardCases();
 
-CaseOutcome runHardCase(const HardCase& hard_case, const CaseSetup& setup);
+HardOutcome runHardCase(const HardCase& hard_case, const CaseSetup& setup);
 
 }  // namespace bleedsim::lab

@@ -36,14 +36,14 @@ constexpr std::array kCases{
 
 std::span<const HardCase> hardCases() { return kCases; }
 
-bool CaseOutcome::holds() const {
-  const auto all_hold = [](const std::vector<Figure>& some) {
-    return std::all_of(some.begin(), some.end(), [](const Figure& figure) { return figure.holds(); });
+bool HardOutcome::holds() const {
+  const auto all_hold = [](const std::vector<HardFigure>& some) {
+    return std::all_of(some.begin(), some.end(), [](const HardFigure& figure) { return figure.holds(); });
   };
   return stopped.empty() && all_hold(figures) && all_hold(always);
 }
 
-CaseOutcome runHardCase(const HardCase& hard_case, const CaseSetup& setup) {
+HardOutcome runHardCase(const HardCase& hard_case, const CaseSetup& setup) {
   CaseRun run{setup};
   hard_case.run(run);
   return std::move(run).finish();

@@ -25,7 +25,7 @@ std::string numberText(double value) {
   return fmt::format("{:.3g}", value);
 }
 
-std::string boundText(const Figure& figure) {
+std::string boundText(const HardFigure& figure) {
   if (!figure.judged) return "";
   if (figure.lowest == figure.highest) return fmt::format(" (exactly {})", numberText(figure.lowest));
   if (std::isinf(figure.lowest)) return fmt::format(" (at most {})", numberText(figure.highest));
@@ -34,7 +34,7 @@ std::string boundText(const Figure& figure) {
 }
 
 /// How much of its bound a figure takes: 1 at the bound, 0 where only one value holds.
-double useOf(const Figure& figure) {
+double useOf(const HardFigure& figure) {
   if (!figure.judged || figure.lowest == figure.highest) return 0.0;
   double use = 0.0;
   if (std::isfinite(figure.highest) && figure.highest != 0.0) use = std::max(use, std::abs(figure.value / figure.highest));
@@ -42,7 +42,7 @@ double useOf(const Figure& figure) {
   return use;
 }
 
-const CaseOutcome* find(const CaseReport& report, const Column& column, sph::Precision precision) {
+const HardOutcome* find(const CaseReport& report, const Column& column, sph::Precision precision) {
   for (std::size_t k = 0; k < report.setups.size(); ++k) {
     const CaseSetup& setup = report.setups[k];
     if (setup.model == column.model && setup.effects == column.effects && setup.precision == precision)
@@ -52,9 +52,9 @@ const CaseOutcome* find(const CaseReport& report, const Column& column, sph::Pre
 }
 
 /// The figure nearest to its bound, with its value in double beside that in float.
-std::string nearestFigure(const CaseOutcome& outcome, const CaseOutcome* other) {
+std::string nearestFigure(const HardOutcome& outcome, const HardOutcome* other) {
   const auto nearest = std::max_element(outcome.figures.begin(), outcome.figures.end(),
-                                        [](const Figure& a, const Figure& b) { return useOf(a) < useOf(b); });
+                                        [](const HardFigure& a, const HardFigure& b) { return useOf(a) < useOf(b); });
   if (nearest == outcome.figures.end()) return {};
   const auto index = static_cast<std::size_t>(nearest - outcome.figures.begin());
   const bool paired = other != nullptr && index < other->figures.size();
@@ -63,8 +63,8 @@ std::string nearestFigure(const CaseOutcome& outcome, const CaseOutcome* other) 
 }
 
 std::string cellOf(const CaseReport& report, const Column& column) {
-  const CaseOutcome* single = find(report, column, sph::Precision::float32);
-  const CaseOutcome* twice = find(report, column, sph::Precision::float64);
+  const HardOutcome* single = find(report, column, sph::Precision::float32);
+  const HardOutcome* twice = find(report, column, sph::Precision::float64);
   if (single == nullptr) return "-";
   const bool both = twice == nullptr || single->holds() == twice->holds();
   if (single->holds() && both) return fmt::format("holds: {}", nearestFigure(*single, twice));
@@ -74,7 +74,7 @@ std::string cellOf(const CaseReport& report, const Column& column) {
   return text;
 }
 
-nlohmann::json toJson(const Figure& figure) {
+nlohmann::json toJson(const HardFigure& figure) {
   nlohmann::json json{{"name", figure.name}, {"value", figure.value}};
   if (!figure.judged) return json;
   if (std::isfinite(figure.lowest)) json["at_least"] = figure.lowest;
@@ -83,14 +83,14 @@ nlohmann::json toJson(const Figure& figure) {
   return json;
 }
 
-nlohmann::json toJson(const CaseSetup& setup, const CaseOutcome& outcome) {
+nlohmann::json toJson(const CaseSetup& setup, const HardOutcome& outcome) {
   nlohmann::json json{{"model", setup.model == sph::Model::sound ? "sound" : "literal"},
                       {"effects", setup.effects == EffectChoice::all ? "all" : "needed"},
                       {"precision", nameOf(setup.precision)},
                       {"holds", outcome.holds()}};
   if (!outcome.stopped.empty()) json["stopped"] = outcome.stopped;
-  for (const Figure& figure : outcome.figures) json["figures"].push_back(toJson(figure));
-  for (const Figure& figure : outcome.always) json["always"].push_back(toJson(figure));
+  for (const HardFigure& figure : outcome.figures) json["figures"].push_back(toJson(figure));
+  for (const HardFigure& figure : outcome.always) json["always"].push_back(toJson(figure));
   for (std::size_t k = 0; k < outcome.counters.size(); ++k) {
     if (outcome.counters[k] > 0)
       json["counters"][std::string{sph::counterName(static_cast<sph::Counter>(k))}] = outcome.counters[k];
@@ -100,14 +100,14 @@ nlohmann::json toJson(const CaseSetup& setup, const CaseOutcome& outcome) {
 
 }  // namespace
 
-std::string describe(const Figure& figure) {
+std::string describe(const HardFigure& figure) {
   return fmt::format("{} {}{}", figure.name, numberText(figure.value), boundText(figure));
 }
 
-std::string describeFailures(const CaseOutcome& outcome) {
+std::string describeFailures(const HardOutcome& outcome) {
   std::string text = outcome.stopped.empty() ? "" : fmt::format("stopped: {}", outcome.stopped);
   for (const auto* figures : {&outcome.figures, &outcome.always}) {
-    for (const Figure& figure : *figures) {
+    for (const HardFigure& figure : *figures) {
       if (!figure.holds()) text += fmt::format("{}{}", text.empty() ? "" : "; ", describe(figure));
     }
   }

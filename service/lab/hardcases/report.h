@@ -12,7 +12,7 @@ namespace bleedsim::lab {
 struct CaseReport {
   const HardCase* hard_case = nullptr;
   std::vector<CaseSetup> setups;
-  std::vector<CaseOutcome> outcomes;  ///< of the setups
+  std::vector<HardOutcome> outcomes;  ///< of the setups
 };
 
 /// The columns are a model with a choice of effects each; a cell says whether the case holds in float and in double, and which
@@ -21,9 +21,9 @@ std::string toMarkdown(const std::vector<CaseReport>& reports);
 nlohmann::json toJson(const std::vector<CaseReport>& reports);
 
 /// "distance, dx 0.31 (at least 0.05)"
-std::string describe(const Figure& figure);
+std::string describe(const HardFigure& figure);
 /// Every judged figure that does not hold, and why the case stopped; empty if it holds.
-std::string describeFailures(const CaseOutcome& outcome);
+std::string describeFailures(const HardOutcome& outcome);
 /// "sound, all effects, float"
 std::string describe(const CaseSetup& setup);
 

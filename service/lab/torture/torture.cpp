@@ -11,7 +11,7 @@ namespace {
 
 /// The first figure that does not hold.
 std::string brokenBy(const Always& always) {
-  for (const Figure& figure : always.figures()) {
+  for (const HardFigure& figure : always.figures()) {
     if (!figure.holds()) return describe(figure);
   }
   return {};

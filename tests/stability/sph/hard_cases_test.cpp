@@ -45,9 +45,9 @@ class HardCaseTest : public testing::TestWithParam<Tested> {};
 // The sound model holds every bound, whatever effects act. Of the literal model only that it ends, with figures or with a reason,
 // is asked: bleedlab hardcases tells what it does.
 TEST_P(HardCaseTest, holds) {
-  const CaseOutcome outcome = runHardCase(*GetParam().hard_case, GetParam().setup);
+  const HardOutcome outcome = runHardCase(*GetParam().hard_case, GetParam().setup);
   std::string figures;
-  for (const Figure& figure : outcome.figures) figures.append(figures.empty() ? "" : "; ").append(describe(figure));
+  for (const HardFigure& figure : outcome.figures) figures.append(figures.empty() ? "" : "; ").append(describe(figure));
   RecordProperty("figures", figures);
   EXPECT_TRUE(!outcome.figures.empty() || !outcome.stopped.empty());
   EXPECT_FALSE(outcome.always.empty());

@@ -16,7 +16,7 @@ struct LibraryRule {
 // A library that a layer needs newly is a decision about the architecture: it is taken here.
 const std::vector<LibraryRule>& libraryRules() {
   static const std::vector<LibraryRule> kRules{
-      {"hwy/", {"sph"}},
+      {"hwy/", {"sph", "lab"}},  // lab measures what the machine can do at most
       {"tbb/", {"sph"}},
       {"Eigen/", {"sph", "scene", "dds", "daemon", "picture"}},
       // recording converts IDL samples, whose sequences and strings ddsc allocates; it opens no entity.

@@ -22,7 +22,8 @@ Outcome run(std::vector<const char*> arguments) {
 TEST(CommandLine, WithoutACommandItListsThem) {
   const Outcome outcome = run({});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.errors, testing::HasSubstr("effects, paper, hardcases, torture, replay, validate, accuracy, choose"));
+  EXPECT_THAT(outcome.errors,
+              testing::HasSubstr("effects, paper, hardcases, torture, replay, validate, accuracy, choose, bench"));
 }
 
 TEST(CommandLine, WithoutAnExperimentItListsThem) {
@@ -114,7 +115,23 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"choose_literal", {"choose", "--scene", SCENE_DIR "/literal.textproto"}, "the literal model has no accuracy"},
         BadLine{"choose_results",
                 {"choose", "--scene", SCENE_DIR "/round_wound.textproto", "--results", "/nosuch.json"},
-                "cannot open '/nosuch.json'"}),
+                "cannot open '/nosuch.json'"},
+        BadLine{"bench_model", {"bench", "--model", "true"}, "true not in {paper,reduced,full}"},
+        BadLine{"bench_particles", {"bench", "--particles", "999"}, "--particles: Value 999 not in range 1000 to 1000000"},
+        BadLine{"bench_particles_many", {"bench", "--particles", "20000,1000001"}, "Value 1000001 not in range 1000 to 1000000"},
+        BadLine{"bench_threads", {"bench", "--threads", "1,0"}, "--threads: Value 0 not in range 1 to 64"},
+        BadLine{"bench_seconds", {"bench", "--seconds", "nan"}, "'nan' is not a number from 0.01 to 3600"},
+        BadLine{"bench_warm_up", {"bench", "--scene", "a", "--warm-up", "-1"}, "'-1' is not a number from 0 to 1000"},
+        BadLine{"bench_warm_up_block", {"bench", "--warm-up", "1"}, "--warm-up requires --scene"},
+        BadLine{"bench_scene_and_model", {"bench", "--scene", "a", "--model", "paper"}, "excludes"},
+        BadLine{"bench_scene_and_particles", {"bench", "--scene", "a", "--particles", "1000"}, "excludes"},
+        BadLine{"bench_scene", {"bench", "--scene", "/nosuch.textproto"}, "does not exist; give the path of a scene file"},
+        BadLine{"bench_simd", {"bench", "--simd", "mmx"}, "use auto, scalar, avx2 or avx512"},
+        BadLine{
+            "bench_compare", {"bench", "--compare", "/nosuch.json"}, "'/nosuch.json' is not a file that can be compared with"},
+        BadLine{"bench_compare_scene",
+                {"bench", "--compare", SCENE_DIR "/round_wound.textproto"},
+                "is not a result of 'bleedlab bench --json'"}),
     [](const auto& tested) { return std::string{tested.param.name}; });
 
 TEST(CommandLine, AMissingSceneIsNamedWithTheFolder) {
