@@ -5,6 +5,7 @@
 #include "service/lab/hardcases/always.h"
 #include "service/lab/hardcases/report.h"
 #include "service/scene/scene.h"
+#include "service/sph/tissue/signed_distance.h"
 
 namespace bleedsim::lab {
 namespace {
@@ -23,10 +24,25 @@ bool refusesBadLimit(sph::World& world, double limit) {
   return !world.step(limit).ok() && world.stateHash() == before && !world.faulted();
 }
 
-/// A refused command leaves no trace.
-bool applyCleanly(sph::World& world, const sph::Command& command) {
+/// Whether the command puts a wound more than half a spacing deep into tissue, or on it and facing it.
+bool buriesWound(const sph::World& world, const sph::Command& command) {
+  const auto* update = std::get_if<sph::UpdateWound>(&command);
+  if (update == nullptr || !update->position || !update->position->allFinite()) return false;
+  const double half = 0.5001 * world.description().spacing;
+  for (const sph::TissueDescription& tissue : world.description().tissue) {
+    const auto wall = sph::signedDistance(tissue.shape, *update->position);
+    const sph::Vec3 outward{wall.normal[0], wall.normal[1], wall.normal[2]};
+    if (wall.value < -half) return true;
+    if (update->normal && wall.value < 0.1 * half && update->normal->normalized().dot(outward) < -0.5) return true;
+  }
+  return false;
+}
+
+/// What is wrong with how a command is taken: a refused one leaves no trace, and a wound that bleeds inside tissue is refused.
+std::string applyCommand(sph::World& world, const sph::Command& command) {
   const std::uint64_t before = world.stateHash();
-  return world.apply(command).ok() || world.stateHash() == before;
+  if (!world.apply(command).ok()) return world.stateHash() == before ? "" : "a refused command left a trace";
+  return buriesWound(world, command) ? "a wound inside tissue was not refused" : "";
 }
 
 class PlanRun {
@@ -38,7 +54,8 @@ class PlanRun {
     double limit = std::numeric_limits<double>::infinity();
     for (int step = 0; step < plan_.steps; ++step) {
       for (const TimedCommand& timed : plan_.commands) {
-        if (timed.step == step && !applyCleanly(world_, timed.command)) return at(step, "a refused command left a trace");
+        if (timed.step != step) continue;
+        if (const std::string wrong = applyCommand(world_, timed.command); !wrong.empty()) return at(step, wrong);
       }
       for (const TimedLimit& timed : plan_.limits) {
         if (timed.step != step) continue;

@@ -153,7 +153,7 @@ class Maker {
       scene::Wound& wound = *scene_.add_wounds();
       wound.set_name("wound" + std::to_string(k));
       const double radius = dx_ * dice_.between(0.4, 3.0);
-      // Clear of a container's sides: a patch that reaches into other tissue bleeds into it.
+      // Clear of a container's sides: a scene whose patch reaches into other tissue is refused as a whole.
       const double room_x = std::max(0.0, std::min(upper_.x(), -lower_.x()) - radius - dx_);
       const double room_y = std::max(0.0, std::min(upper_.y(), -lower_.y()) - radius - dx_);
       const double x = (k == 0 ? -0.5 : 0.5) * room_x;
@@ -197,16 +197,20 @@ class Maker {
     sph::UpdateWound update;
     update.wound_id = static_cast<std::uint32_t>(1 + dice_.upTo(1));
     if (dice_.chance(0.5)) update.drive = sph::FlowDrive{dice_.overMagnitudes(1e-12, 1e-5)};
-    if (onAPlane() && dice_.chance(0.4)) update.position = placeOnThePlane();
+    if (onAPlane() && dice_.chance(0.4)) moveWound(update);
     if (dice_.chance(0.2)) update.shape = sph::DiscPatch{dx_ * dice_.between(0.3, 3.0)};
     if (dice_.chance(0.1)) update.position = sph::Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     return update;
   }
 
   bool onAPlane() const { return scene_.tissue_size() == 1 && scene_.tissue(0).has_plane(); }
-  sph::Vec3 placeOnThePlane() {
-    const sph::Vec3 at = 0.7 * dice_.within(-half_, half_);
-    return {at.x(), at.y(), -at.x() * normal_.x() / normal_.z()};
+  /// To another place on the plane; to one inside it and turned into it, which must be refused, a quarter of the time each.
+  void moveWound(sph::UpdateWound& update) {
+    const sph::Vec3 part = dice_.within(sph::Vec3::Constant(-1.0), sph::Vec3::Constant(1.0));
+    const sph::Vec3 at = 0.7 * part.cwiseProduct(half_);
+    update.position = sph::Vec3{at.x(), at.y(), -at.x() * normal_.x() / normal_.z()};
+    if (part.z() < -0.5) *update.position += part.z() * 2.0 * dx_ * normal_;
+    if (part.z() > 0.5) update.normal = -normal_;
   }
 
   /// A millionth of a newton to a thousand of them; sometimes no number.
