@@ -147,6 +147,26 @@ TEST_F(Resume, UsesTheOneBeforeWhereTheNewestIsDamaged) {
   EXPECT_EQ(again.wait(), 0) << again.output();
 }
 
+TEST_F(Resume, ItsDurationIsThatOfTheSessionBeforeAndAfterTheKill) {
+  auto daemon = start(options());
+  ASSERT_NE(daemon, nullptr);
+  waitCheckpoints(daemon->session(), 2);
+  kill(*daemon);
+  const double until = daemon->session().status()->sim_time + 0.2;
+  daemon = start(options({"--duration", std::to_string(until)}));
+  ASSERT_NE(daemon, nullptr);
+  EXPECT_EQ(daemon->process().wait(), 0);
+  const double end = daemon->session().status()->sim_time;
+  EXPECT_GE(end, until - 1e-6) << "the option's text has six decimals";
+  EXPECT_LT(end, until + 0.01) << "a step at most";
+
+  test::ChildProcess over{{BLEEDD_PATH, "--scene", sceneFile(), "--session", session_, "--domain", std::to_string(kDomain),
+                           "--checkpoint-dir", checkpointDir(), "--resume", "--duration", "0.001"},
+                          true};
+  EXPECT_EQ(over.wait(), 0) << over.output();
+  EXPECT_THAT(over.output(), HasSubstr("nothing is left to run: --duration is 0.001 s"));
+}
+
 TEST_F(Resume, StartsTheSceneWhereThereIsNothingToResumeFrom) {
   const auto daemon = start(options());
   ASSERT_NE(daemon, nullptr);
