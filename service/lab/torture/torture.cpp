@@ -1,6 +1,7 @@
 #include "service/lab/torture/torture.h"
 
 #include <fmt/format.h>
+#include <optional>
 
 #include "service/lab/hardcases/always.h"
 #include "service/lab/hardcases/report.h"
@@ -24,18 +25,25 @@ bool refusesBadLimit(sph::World& world, double limit) {
   return !world.step(limit).ok() && world.stateHash() == before && !world.faulted();
 }
 
-/// Whether the command puts a wound more than half a spacing deep into tissue, or on it and facing it.
-bool buriesWound(const sph::World& world, const sph::Command& command) {
-  const auto* update = std::get_if<sph::UpdateWound>(&command);
-  if (update == nullptr || !update->position || !update->position->allFinite()) return false;
-  const double half = 0.5001 * world.description().spacing;
-  for (const sph::TissueDescription& tissue : world.description().tissue) {
-    const auto wall = sph::signedDistance(tissue.shape, *update->position);
+/// More than half a spacing deep in tissue, or on it and facing it.
+bool isBuried(const sph::WorldDescription& scene, const sph::Vec3& position, const std::optional<sph::Vec3>& normal) {
+  const double half = 0.5001 * scene.spacing;
+  for (const sph::TissueDescription& tissue : scene.tissue) {
+    const auto wall = sph::signedDistance(tissue.shape, position);
     const sph::Vec3 outward{wall.normal[0], wall.normal[1], wall.normal[2]};
     if (wall.value < -half) return true;
-    if (update->normal && wall.value < 0.1 * half && update->normal->normalized().dot(outward) < -0.5) return true;
+    if (normal && wall.value < 0.1 * half && normal->normalized().dot(outward) < -0.5) return true;
   }
   return false;
+}
+
+/// Whether the command places a wound where it would bleed inside tissue.
+bool buriesWound(const sph::World& world, const sph::Command& command) {
+  if (const auto* add = std::get_if<sph::AddWound>(&command)) {
+    return isBuried(world.description(), add->wound.position, add->wound.normal);
+  }
+  const auto* update = std::get_if<sph::UpdateWound>(&command);
+  return update != nullptr && update->position && isBuried(world.description(), *update->position, update->normal);
 }
 
 /// What is wrong with how a command is taken: a refused one leaves no trace, and a wound that bleeds inside tissue is refused.
