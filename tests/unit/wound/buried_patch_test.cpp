@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <utility>
 
 #include "service/sph/wound/wound_rules.h"
 #include "tests/unit/wound/throat_world.h"
@@ -19,7 +20,7 @@ using Fault = BuriedPatch::Fault;
 
 WorldDescription sceneWith(decltype(TissueDescription::shape) shape) {
   WorldDescription scene = plainDescription(kDx);
-  scene.tissue.push_back({.name = "liver", .shape = shape});
+  scene.tissue.push_back({.name = "liver", .shape = std::move(shape)});
   return scene;
 }
 WorldDescription onPlane() { return sceneWith(PlaneShape{}); }
