@@ -3,15 +3,18 @@
 #include <array>
 #include <cstdio>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unistd.h>
+#include <vector>
 
 #include "clients/bleedctl/context.h"
 #include "clients/bleedctl/json.h"
 #include "clients/bleedctl/stop_signal.h"
+#include "clients/bleedctl/terminal_rows.h"
 
 namespace bleedsim::bleedctl {
 namespace {
@@ -25,8 +28,9 @@ constexpr std::chrono::seconds kQuietInterval{2};
 constexpr const char* kWatchText =
     "Prints a line whenever there are new statistics, at most five a second. Without them, as in a pause, it prints\n"
     "state, simulated time, step and particles: at once, when the state changes, and every 2 s. With --json such a line\n"
-    "has no 'seq'. --count counts the lines of both kinds. Frames are overdue when the statistics tell of them and they do not\n"
-    "come: with a receive buffer that is too small for them, all may get lost.\n\n";
+    "has no 'seq'. --count counts the lines of both kinds. On a terminal a line is three rows, written over the ones before.\n"
+    "Frames are overdue when the statistics tell of them and they do not come: with a receive buffer that is too small for\n"
+    "them, all may get lost.\n\n";
 
 std::string paceText(const client::SessionStatus& status) {
   switch (status.pace) {
@@ -213,8 +217,7 @@ class WatchPrinter {
  private:
   bool overwrites() const { return terminal_ && !context_.json; }
 
-  void printFigures(const client::SessionStatus& status, const client::FrameStats& stats,
-                    const client::FrameCounters& frames) const {
+  void printFigures(const client::SessionStatus& status, const client::FrameStats& stats, const client::FrameCounters& frames) {
     if (context_.json) {
       JsonObject json;
       json.add("state", client::toString(status.state)).add("seq", stats.seq).add("step", stats.step);
@@ -231,28 +234,35 @@ class WatchPrinter {
       fmt::print("{}\n", json.raw("fault_counters", counters.text()).text());
       return;
     }
-    printLine(fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time, {:.3f} s behind  {:>8} particles  {:>9.3f} mL  {}{}  {}",
-                          client::toString(status.state), stats.sim_time_s, stats.real_time_factor, stats.behind_s,
-                          stats.particles, stats.emitted_ml, frameText(frames), faultText(stats), costText(stats)));
+    show({fmt::format("{:<7} {:>9.3f} s  {:>5.2f} x real time, {:.3f} s behind  {:>8} particles", client::toString(status.state),
+                      stats.sim_time_s, stats.real_time_factor, stats.behind_s, stats.particles),
+          fmt::format("{:>9.3f} mL  {}{}", stats.emitted_ml, frameText(frames), faultText(stats)), costText(stats)});
   }
 
-  void printState(const client::SessionStatus& status) const {
+  void printState(const client::SessionStatus& status) {
     if (context_.json) {
       JsonObject json;
       json.add("state", client::toString(status.state)).add("step", status.step).add("sim_time_s", status.sim_time_s);
       fmt::print("{}\n", json.add("particles", status.particles).add("text", status.text).text());
       return;
     }
-    printLine(fmt::format("{:<7} {:>9.3f} s  step {}  {:>8} particles  no new frames{}{}", client::toString(status.state),
-                          status.sim_time_s, status.step, status.particles, status.text.empty() ? "" : ": ", status.text));
+    show({fmt::format("{:<7} {:>9.3f} s  step {}  {:>8} particles  no new frames{}{}", client::toString(status.state),
+                      status.sim_time_s, status.step, status.particles, status.text.empty() ? "" : ": ", status.text)});
   }
 
-  void printLine(const std::string& line) const {
-    fmt::print("{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\x1b[K" : "\n");
+  /// One line, or as many rows on a terminal, which they stay on.
+  void show(const std::vector<std::string>& parts) {
+    if (!terminal_) {
+      fmt::print("{}\n", fmt::join(parts, "  "));
+      return;
+    }
+    fmt::print("{}", overwriteRows(rows_, parts, terminalColumns() - 1));
+    rows_ = parts.size();
   }
 
   const Context& context_;
   const bool terminal_ = isatty(STDOUT_FILENO) == 1;
+  std::size_t rows_ = 0;         // that stand on the terminal
   std::uint64_t shown_seq_ = 0;  // sessions count from 1
   client::SessionState shown_state_ = client::SessionState::running;
   std::chrono::steady_clock::time_point printed_at_ = std::chrono::steady_clock::now();

@@ -93,9 +93,12 @@ std::variant<Options, ExitCode> parseOptions(int argc, const char* const* argv) 
       ->check([](const std::string& name) { return textOf(sph::parseSimdTarget(name).status()); })
       ->type_name("TARGET")
       ->capture_default_str();
-  auto* duration_option = app.add_option("--duration", duration, "End after this many simulated seconds")
-                              ->check(finiteIn(0.0, kMaxDuration))
-                              ->type_name("SECONDS");
+  auto* duration_option =
+      app.add_option("--duration", duration,
+                     "End once the simulated time has reached this; with --resume, what the session ran before "
+                     "counts, so that it ends where it would have without the kill")
+          ->check(finiteIn(0.0, kMaxDuration))
+          ->type_name("SECONDS");
   auto* every_option =
       app.add_option(
              "--checkpoint-every", checkpoint_every,

@@ -20,7 +20,7 @@ struct Options {
   std::string interface;  ///< empty: loopback
   dds::Pace pace;
   std::optional<double> frame_rate;  ///< frames per simulated second
-  std::optional<double> duration;    ///< simulated s
+  std::optional<double> duration;    ///< simulated s, those before a resume included
   sph::WorldOptions world;
   std::optional<double> checkpoint_every;        ///< simulated s
   std::optional<std::string> checkpoint_folder;  ///< of this session; without it no checkpoints are kept

@@ -43,8 +43,8 @@ ExitCode exitCodeOf(const Status& status) {
   return status.code() == StatusCode::invalid_argument ? ExitCode::usage : ExitCode::failure;
 }
 
-/// The newest good checkpoint in place of the scene, if there is one.
-void resume(const SceneFactory& factory, const std::string& folder, LoadedScene& loaded) {
+/// The newest good checkpoint in place of the scene, if there is one. `duration` in s.
+void resume(const SceneFactory& factory, const std::string& folder, std::optional<double> duration, LoadedScene& loaded) {
   SceneJob newest;
   newest.checkpoint.emplace();
   Result<LoadedScene> resumed = factory(newest);
@@ -58,6 +58,10 @@ void resume(const SceneFactory& factory, const std::string& folder, LoadedScene&
   }
   spdlog::info("resumed from checkpoint '{}': step {}, {:.3f} s of epoch {}{}", head.name, head.mark.step, head.mark.sim_time,
                head.mark.epoch, head.mark.paused ? ", paused" : "");
+  if (duration && head.mark.sim_time >= *duration) {
+    spdlog::warn("nothing is left to run: --duration is {} s, and that checkpoint is as late; give a longer one to go on",
+                 *duration);
+  }
   loaded = std::move(*resumed);
 }
 
@@ -132,7 +136,7 @@ ExitCode runProgram(const Options& options, const std::shared_ptr<LogFile>& log_
     fmt::print("{}", describeWorld(*loaded));
     return ExitCode::ok;
   }
-  if (options.resume) resume(factory, *options.checkpoint_folder, *loaded);
+  if (options.resume) resume(factory, *options.checkpoint_folder, options.duration, *loaded);
   return runService(options, std::move(*loaded), factory, std::move(checkpoints), log_file, signals);
 }
 

@@ -90,6 +90,7 @@ void Simulation::install(LoadedScene loaded, TimePoint now) {
     frame_clock_.take(world_->time());
   }
   attributes_ &= availableAttributes();
+  if (durationOver()) ended_ = true;  // the state that a session resumes from may be its last
   // A killed daemon comes back to this epoch, not to the one before.
   checkpoint_due_ = checkpoint_clock_.has_value();
   if (checkpoint_clock_) checkpoint_clock_->setRate(checkpoint_clock_->rate(), world_->time());
@@ -98,6 +99,8 @@ void Simulation::install(LoadedScene loaded, TimePoint now) {
   publishFrame(now);
   showState();
 }
+
+bool Simulation::durationOver() const { return options_.duration && world_->time() >= *options_.duration; }
 
 dds::SessionState Simulation::state() const {
   if (pending_load_) return dds::SessionState::loading;
@@ -201,7 +204,7 @@ void Simulation::advance(TimePoint now) {
   if (in_pause) --steps_left_;
   const bool frame_due = frame_clock_.take(time);
   if (checkpoint_clock_ && checkpoint_clock_->take(time)) checkpoint_due_ = true;
-  ended_ = options_.duration.has_value() && time >= *options_.duration;
+  ended_ = durationOver();
   // Whoever steps by hand, or ends the session at a time, wants to see the state it ends in.
   const bool last_by_hand = in_pause && steps_left_ == 0;
   if (frame_due || last_by_hand || ended_) publishFrame(now);

@@ -29,7 +29,7 @@ class CheckpointKeeper;
 struct SimulationOptions {
   dds::Pace pace;
   std::optional<double> frame_rate;    ///< frames per simulated second, instead of the scenes'
-  std::optional<double> duration;      ///< simulated s of one epoch after which the session ends
+  std::optional<double> duration;      ///< simulated s at which the session ends, those before a resume included
   CheckpointKeeper* keeper = nullptr;  ///< null: no checkpoints
   /// Simulated s between checkpoints that the service takes by itself, at the first state at or after each multiple of it, the
   /// first of an epoch included.
@@ -55,6 +55,7 @@ class Simulation {
   void requestStop();
 
   dds::SessionState state() const;
+
   std::uint32_t epoch() const { return epoch_; }
   const sph::World& world() const { return *world_; }
 
@@ -80,6 +81,7 @@ class Simulation {
   // simulation.cpp
   void install(LoadedScene loaded, TimePoint now);
   void finishLoading(TimePoint now);
+  bool durationOver() const;
   void advance(TimePoint now);
   void publishFrame(TimePoint now);
   void postScene();

@@ -7,6 +7,7 @@
 #include "service/lab/accuracy/report.h"
 #include "service/lab/app.h"
 #include "service/lab/case_names.h"
+#include "service/lab/json_option.h"
 #include "service/lab/lab_files.h"
 #include "service/lab/progress.h"
 #include "service/status/number_text.h"
@@ -70,7 +71,7 @@ void addAccuracyCommand(CLI::App& app, Context& context) {
       ->check(finiteIn(0.01, 600.0));
   command->add_flag("--no-effects", arguments->no_effects, "Leave the cost of each effect out")->disable_flag_override();
   command->add_option("-o,--output", arguments->folder, "Write accuracy.csv, accuracy.md and plots here")->type_name("DIR");
-  command->add_option("--json", arguments->json, "Write JSON here; -: to stdout, in place of the tables")->type_name("FILE");
+  addJsonOption(*command, arguments->json);
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }
 

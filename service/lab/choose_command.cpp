@@ -12,6 +12,7 @@
 
 #include "service/lab/app.h"
 #include "service/lab/choose/chooser.h"
+#include "service/lab/json_option.h"
 #include "service/lab/lab_files.h"
 #include "service/lab/machine.h"
 #include "service/lab/progress.h"
@@ -293,7 +294,7 @@ void addChooseCommand(CLI::App& app, Context& context) {
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
   command->add_option("-o,--output", arguments->output, "Write the scene here")->type_name("SCENE_OUT");
-  command->add_option("--json", arguments->json, "Write JSON here; -: to stdout, in place of the table")->type_name("FILE");
+  addJsonOption(*command, arguments->json);
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }
 

@@ -1,14 +1,16 @@
 // bleedlab hardcases: the hard cases, sound beside literal.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "service/lab/app.h"
 #include "service/lab/hardcases/report.h"
+#include "service/lab/json_option.h"
+#include "service/lab/lab_files.h"
 #include "service/lab/progress.h"
 #include "service/lab/side_by_side.h"
 
@@ -20,7 +22,7 @@ struct Arguments {
   std::string model = "both";
   std::string folder;
   int threads = 1;
-  bool json = false;
+  std::string json;
 };
 
 std::vector<CaseSetup> setupsOf(const std::string& model) {
@@ -35,15 +37,8 @@ std::vector<CaseSetup> setupsOf(const std::string& model) {
   return setups;
 }
 
-Status writeText(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out{file};
-  out << text;
-  out.close();
-  if (!out) return {StatusCode::io, "cannot write '" + file.string() + "'"};
-  return {};
-}
-
 ExitCode run(const Arguments& arguments) {
+  if (Status status = makeFolder(arguments.folder); !status.ok()) return fail(ExitCode::failed, status.message());
   std::vector<CaseReport> reports;
   for (const HardCase& hard_case : hardCases()) {
     const bool wanted = arguments.cases.empty() ||
@@ -63,9 +58,10 @@ ExitCode run(const Arguments& arguments) {
         report.outcomes[job % each] = runHardCase(*report.hard_case, report.setups[job % each]);
       },
       [&](std::size_t finished) { progress.report(static_cast<double>(finished) / static_cast<double>(jobs)); });
-  const std::string json = toJson(reports).dump(2) + "\n";
+  const nlohmann::json json = toJson(reports);
   const std::string table = toMarkdown(reports);
-  fmt::print("{}", arguments.json ? json : table);
+  if (arguments.json != "-") fmt::print("{}", table);
+  if (Status status = writeJson(arguments.json, json); !status.ok()) return fail(ExitCode::failed, status.message());
   bool sound_holds = true;
   for (const CaseReport& report : reports) {
     for (std::size_t k = 0; k < each; ++k) {
@@ -76,12 +72,9 @@ ExitCode run(const Arguments& arguments) {
     }
   }
   if (!arguments.folder.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(arguments.folder, error);
-    if (error) return fail(ExitCode::failed, "cannot make folder '" + arguments.folder + "': " + error.message());
-    const std::filesystem::path folder{arguments.folder};
-    if (Status status = writeText(folder / "hardcases.md", table); !status.ok()) return fail(ExitCode::failed, status.message());
-    if (Status status = writeText(folder / "hardcases.json", json); !status.ok()) return fail(ExitCode::failed, status.message());
+    Status written = writeTextFile(arguments.folder, "hardcases.md", table);
+    if (written.ok()) written = writeJson((std::filesystem::path{arguments.folder} / "hardcases.json").string(), json);
+    if (!written.ok()) return fail(ExitCode::failed, written.message());
   }
   return sound_holds ? ExitCode::done : ExitCode::failed;
 }
@@ -103,7 +96,7 @@ void addHardCasesCommand(CLI::App& app, Context& context) {
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
   command->add_option("-o,--output", arguments->folder, "Also write hardcases.md and hardcases.json here")->type_name("DIR");
-  command->add_flag("--json", arguments->json, "Print JSON instead of the table")->disable_flag_override();
+  addJsonOption(*command, arguments->json);
   command->footer("Exit code 1: a case does not hold with the sound model. What the literal model fails is told only.");
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/core.h>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "service/checkpoint/state_file.h"
 #include "service/lab/app.h"
+#include "service/lab/lab_files.h"
 #include "service/lab/progress.h"
 #include "service/replay/replay.h"
 #include "service/status/number_text.h"
@@ -125,11 +125,9 @@ ExitCode run(const Arguments& arguments) {
         refused ? ExitCode::differs : ExitCode::failed,
         (refused ? "'" + arguments.file + "' cannot be verified: " : "'" + arguments.file + "': ") + report.status().message());
   }
-  print(*report);
-  if (!arguments.json_file.empty()) {
-    std::ofstream out{arguments.json_file};
-    out << toJson(*report, arguments).dump(2) << '\n';
-    if (!out.flush()) return fail(ExitCode::failed, "cannot write '" + arguments.json_file + "'");
+  if (arguments.json_file != "-") print(*report);
+  if (Status status = writeJson(arguments.json_file, toJson(*report, arguments)); !status.ok()) {
+    return fail(ExitCode::failed, status.message());
   }
   return arguments.verify && !report->bitEqual() ? ExitCode::differs : ExitCode::done;
 }
@@ -150,7 +148,8 @@ void addReplayCommand(CLI::App& app, Context& context) {
   command->add_option("--speed", arguments->speed, "Let recorded states pass at this pace and print them")
       ->check(finiteIn(1e-4, 1e3))
       ->type_name("X");
-  command->add_option("--json", arguments->json_file, "Also write the result here")->type_name("FILE");
+  command->add_option("--json", arguments->json_file, "Write the result here; -: to stdout, in place of the lines")
+      ->type_name("FILE");
   command
       ->add_option("--checkpoint", arguments->checkpoint, "The checkpoint that an epoch goes on from, if it is not in the file")
       ->type_name("FILE");

@@ -6,6 +6,7 @@
 
 #include "service/lab/app.h"
 #include "service/lab/case_names.h"
+#include "service/lab/json_option.h"
 #include "service/lab/knob_options.h"
 #include "service/lab/lab_files.h"
 #include "service/lab/progress.h"
@@ -69,7 +70,7 @@ void addValidateCommand(CLI::App& app, Context& context) {
   command->add_flag("--list", arguments->list, "Print the cases and end")->disable_flag_override();
   addKnobOptions(*command, arguments->knobs);
   command->add_option("-o,--output", arguments->folder, "Write report.md and plots here")->type_name("DIR");
-  command->add_option("--json", arguments->json, "Write JSON here; -: to stdout, in place of the table")->type_name("FILE");
+  addJsonOption(*command, arguments->json);
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }
 

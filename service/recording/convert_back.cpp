@@ -42,6 +42,12 @@ void counters(ToSample& to, const char* name, const Repeated& in, Sequence& out)
   }
 }
 
+template <class Repeated, class Sequence>
+void effectNames(ToSample& to, const char* name, const Repeated& in, Sequence& out) {
+  if (!to.reserve(name, in.size(), kMaxEffects, out)) return;
+  for (int i = 0; i < in.size(); ++i) to.text(name, in[i], out._buffer[i]);
+}
+
 std::uint8_t octet(ToSample& to, const char* name, std::uint32_t value) {
   if (value > std::numeric_limits<std::uint8_t>::max()) to.fail(fmt::format("{} is {}, more than 255", name, value));
   return static_cast<std::uint8_t>(value);
@@ -209,9 +215,7 @@ Result<SamplePtr<bleed_v1_Scene>> fromRecording(const Scene& message) {
   to.text("scene.scene_name", message.scene_name(), out->scene_name);
   to.text(message.scene_text(), out->scene_text);
   out->seed = message.seed();
-  if (to.reserve("scene.effects", message.effects_size(), kMaxEffects, out->effects)) {
-    for (int i = 0; i < message.effects_size(); ++i) to.text("scene.effects", message.effects(i), out->effects._buffer[i]);
-  }
+  effectNames(to, "scene.effects", message.effects(), out->effects);
   to.text("scene.frame_id", message.frame_id(), out->frame_id);
   to.text("scene.length_unit", message.length_unit(), out->length_unit);
   to.text("scene.axes", message.axes(), out->axes);
@@ -224,11 +228,7 @@ Result<SamplePtr<bleed_v1_Scene>> fromRecording(const Scene& message) {
   out->speed_of_sound_m_per_s = message.speed_of_sound_m_per_s();
   out->frame_rate_hz = message.frame_rate_hz();
   out->capacity = message.capacity();
-  if (to.reserve("scene.known_effects", message.known_effects_size(), kMaxEffects, out->known_effects)) {
-    for (int i = 0; i < message.known_effects_size(); ++i) {
-      to.text("scene.known_effects", message.known_effects(i), out->known_effects._buffer[i]);
-    }
-  }
+  effectNames(to, "scene.known_effects", message.known_effects(), out->known_effects);
   to.text(message.loaded_text(), out->loaded_text);
   return finish(to, std::move(out));
 }

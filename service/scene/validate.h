@@ -26,9 +26,9 @@ void validateOutput(const Scene& scene, ProblemList& problems);
 void validateTissue(const Scene& scene, ProblemList& problems);
 void validateWounds(const Scene& scene, ProblemList& problems);
 void validateFluidBlocks(const Scene& scene, ProblemList& problems);
-/// What the solver would refuse: wounds that are too fast, overlap or reach out of the domain, outlines that cross themselves,
-/// blocks that the effects cannot work with, what the model does not know. After the others: wounds that have problems already
-/// are left out. `speed_of_sound` (m/s) is that of a world that runs; without it the scene's own.
+/// What the solver would refuse: wounds that are too fast, overlap, reach out of the domain or bleed inside tissue, outlines that
+/// cross themselves, blocks that the effects cannot work with, what the model does not know. After the others: wounds and tissue
+/// that have problems already are left out. `speed_of_sound` (m/s) is that of a world that runs; without it the scene's own.
 void validateWorld(const Scene& scene, std::optional<double> speed_of_sound, ProblemList& problems);
 /// Names and the description.
 void validateText(const Scene& scene, ProblemList& problems);

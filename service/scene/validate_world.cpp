@@ -18,11 +18,11 @@ namespace {
 
 constexpr const char* kAxes = "xyz";
 
-/// Indices of the wounds without problems of their own, within the count that a scene may have.
-std::vector<int> soundWounds(const Scene& scene, const ProblemList& problems) {
+/// Indices of the members of a list without problems of their own, within the count that a scene may have.
+std::vector<int> soundOnes(const char* list, int size, int most, const ProblemList& problems) {
   std::vector<int> sound;
-  for (int i = 0; i < std::min(scene.wounds_size(), kMaxSceneWounds); ++i) {
-    if (!problems.concerns(fmt::format("wounds[{}]", i))) sound.push_back(i);
+  for (int i = 0; i < std::min(size, most); ++i) {
+    if (!problems.concerns(fmt::format("{}[{}]", list, i))) sound.push_back(i);
   }
   return sound;
 }
@@ -103,6 +103,17 @@ struct TellWound {
                              meets.extent, meets.most));
   }
 
+  void operator()(const sph::BuriedPatch& buried) const {
+    switch (buried.fault) {
+      case sph::BuriedPatch::Fault::position:
+        return problems.add(path("position_m"), "value " + buried.reason);
+      case sph::BuriedPatch::Fault::normal:
+        return problems.add(path("normal"), "value " + buried.reason);
+      case sph::BuriedPatch::Fault::extent:
+        return problems.add(path(shapeName(wound())), buried.reason);
+    }
+  }
+
   void operator()(const sph::WoundOverlap& overlap) const {
     const int other = indices[overlap.other];
     problems.add(path("position_m"),
@@ -165,13 +176,15 @@ void validateWorld(const Scene& scene, std::optional<double> speed_of_sound, Pro
   if (anyConcerned(problems, {"domain.lower_m", "domain.upper_m", "resolution.spacing_m", "resolution.support_ratio"})) {
     return;
   }
-  const std::vector<int> wounds = soundWounds(scene, problems);
+  const std::vector<int> wounds = soundOnes("wounds", scene.wounds_size(), kMaxSceneWounds, problems);
+  const std::vector<int> tissue = soundOnes("tissue", scene.tissue_size(), kMaxTissues, problems);
   const std::vector<int> blocks = sizedBlocks(scene);
   const bool effects_sound = !anyConcerned(problems, {"effects", "model", "literal", "resolution.kernel"});
   sph::WorldDescription world = convertWorld(scene);
   world.fluid_blocks = pick(world.fluid_blocks, blocks);
   validateModel(world, blocks, problems);
   world.wounds = pick(world.wounds, wounds);
+  world.tissue = pick(world.tissue, tissue);
   if (!effects_sound) {
     world.effects = {};
     world.model = sph::Model::sound;

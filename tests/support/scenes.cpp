@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "service/lab/frame_vectors.h"
+#include "service/lab/scene_parts.h"
+
 namespace bleedsim::test {
 namespace {
 
 using sph::Vec3;
 
-Vec3 extentOf(const Counts& counts) { return kSpacing * Vec3{double(counts[0]), double(counts[1]), double(counts[2])}; }
+Vec3 extentOf(const Counts& counts) { return lab::extentOf(kSpacing, counts); }
 
 void addBlood(sph::WorldDescription& scene, const Vec3& lower, const Counts& counts, double jitter) {
-  sph::FluidBlock block;
-  block.lower = lower;
-  block.upper = lower + extentOf(counts);
-  block.jitter = jitter;
-  scene.fluid_blocks.push_back(block);
+  scene.fluid_blocks.push_back(lab::blockOf(kSpacing, lower, counts));
+  scene.fluid_blocks.back().jitter = jitter;
   scene.capacity = std::max(scene.capacity, static_cast<std::uint32_t>(counts[0] * counts[1] * counts[2]));
   scene.effects.pressure.emplace();
   scene.effects.viscosity.emplace();
@@ -74,12 +74,7 @@ sph::WorldDescription hydrostaticColumn(const Counts& counts, double viscosity) 
   return scene;
 }
 
-sph::WoundDescription discWound(double radius, double flow) {
-  sph::WoundDescription wound;
-  wound.shape = sph::DiscPatch{radius};
-  wound.drive = sph::FlowDrive{flow};
-  return wound;
-}
+sph::WoundDescription discWound(double radius, double flow) { return lab::discWound(radius, flow); }
 
 sph::WorldDescription woundOnPlane(double radius, double flow) {
   sph::WorldDescription scene = emptyScene();
@@ -98,11 +93,7 @@ std::unique_ptr<sph::World> makeWorld(const sph::WorldDescription& description, 
   return std::move(*world);
 }
 
-sph::WorldStats statsOf(const sph::World& world) {
-  sph::WorldStats stats;
-  world.collectStats(stats);
-  return stats;
-}
+sph::WorldStats statsOf(const sph::World& world) { return lab::statsOf(world); }
 
 std::uint64_t counterOf(const sph::World& world, sph::Counter counter) {
   return statsOf(world).counters[static_cast<std::size_t>(counter)];
@@ -124,15 +115,9 @@ sph::FrameBuffer frameOf(const sph::World& world) {
   return frame;
 }
 
-sph::Vec3 positionOf(const sph::FrameBuffer& frame, std::size_t particle) {
-  const float* p = frame.position.data() + 3 * particle;
-  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-}
+sph::Vec3 positionOf(const sph::FrameBuffer& frame, std::size_t particle) { return lab::positionOf(frame, particle); }
 
-sph::Vec3 velocityOf(const sph::FrameBuffer& frame, std::size_t particle) {
-  const float* v = frame.velocity.data() + 3 * particle;
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
+sph::Vec3 velocityOf(const sph::FrameBuffer& frame, std::size_t particle) { return lab::velocityOf(frame, particle); }
 
 sph::Vec3 momentumOf(const sph::World& world) {
   const sph::FrameBuffer frame = frameOf(world);
@@ -141,11 +126,6 @@ sph::Vec3 momentumOf(const sph::World& world) {
   return world.particleMass() * sum;
 }
 
-double momentumScaleOf(const sph::World& world) {
-  const sph::FrameBuffer frame = frameOf(world);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < frame.count; ++i) sum += velocityOf(frame, i).norm();
-  return world.particleMass() * sum;
-}
+double momentumScaleOf(const sph::World& world) { return lab::momentumScale(world, frameOf(world)); }
 
 }  // namespace bleedsim::test

@@ -5,13 +5,6 @@
 #include <limits>
 
 namespace bleedsim::lab {
-namespace {
-
-sph::Vec3 extentOf(const sph::WorldDescription& scene, const Counts& counts) {
-  return scene.spacing * sph::Vec3{double(counts[0]), double(counts[1]), double(counts[2])};
-}
-
-}  // namespace
 
 sph::WorldDescription emptyScene() {
   sph::WorldDescription scene;
@@ -35,20 +28,17 @@ sph::WorldDescription weightlessScene() {
 }
 
 void addBlock(sph::WorldDescription& scene, const sph::Vec3& lower, const Counts& counts, const sph::Vec3& velocity) {
-  sph::FluidBlock block;
-  block.lower = lower;
-  block.upper = lower + extentOf(scene, counts);
-  block.velocity = velocity;
-  scene.fluid_blocks.push_back(block);
+  scene.fluid_blocks.push_back(blockOf(scene.spacing, lower, counts));
+  scene.fluid_blocks.back().velocity = velocity;
 }
 
 void addLoneParticle(sph::WorldDescription& scene, const sph::Vec3& at, const sph::Vec3& velocity) {
-  addBlock(scene, at - sph::Vec3::Constant(0.5 * scene.spacing), {1, 1, 1}, velocity);
+  scene.fluid_blocks.push_back(particleAt(scene.spacing, at, velocity));
 }
 
 void addBox(sph::WorldDescription& scene, const Counts& counts, bool open_top) {
   sph::BoxShape box;
-  box.upper = extentOf(scene, counts);
+  box.upper = extentOf(scene.spacing, counts);
   box.open_top = open_top;
   scene.tissue.push_back({.name = "box", .shape = box});
   scene.domain.lower = sph::Vec3::Constant(-20.0 * scene.spacing);
@@ -72,13 +62,6 @@ sph::WorldDescription poolScene(const Counts& box, int depth) {
   return scene;
 }
 
-sph::WoundDescription discWound(double radius, double flow) {
-  sph::WoundDescription wound;
-  wound.shape = sph::DiscPatch{radius};
-  wound.drive = sph::FlowDrive{flow};
-  return wound;
-}
-
 sph::WorldDescription woundScene(double radius, double flow) {
   sph::WorldDescription scene = bloodScene();
   scene.effects.gravity.emplace();
@@ -97,16 +80,6 @@ sph::SetForce push(const sph::Vec3& at, double radius, const sph::Vec3& newtons)
   return force;
 }
 
-sph::Vec3 positionOf(const sph::FrameBuffer& frame, std::size_t particle) {
-  const float* p = frame.position.data() + 3 * particle;
-  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-}
-
-sph::Vec3 velocityOf(const sph::FrameBuffer& frame, std::size_t particle) {
-  const float* v = frame.velocity.data() + 3 * particle;
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
 double smallestDistance(Trial& trial) {
   const sph::FrameBuffer& frame = trial.frame();
   double smallest = std::numeric_limits<double>::infinity();
@@ -119,13 +92,6 @@ double smallestDistance(Trial& trial) {
 double speedRms(const Trial& trial) {
   const sph::WorldStats stats = trial.stats();
   return stats.particles == 0 ? 0.0 : std::sqrt(2.0 * stats.kinetic_energy / (trial.world().particleMass() * stats.particles));
-}
-
-double momentumScale(Trial& trial) {
-  const sph::FrameBuffer& frame = trial.frame();
-  double sum = 0.0;
-  for (std::size_t i = 0; i < frame.count; ++i) sum += velocityOf(frame, i).norm();
-  return trial.world().particleMass() * sum;
 }
 
 std::vector<sph::Vec3> positionsById(Trial& trial) {

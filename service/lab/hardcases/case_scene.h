@@ -1,17 +1,16 @@
 // Small scenes for the hard cases: spacing 1 mm, h = 2 dx, blood, c0 = 5 m/s unless a case says otherwise.
 #pragma once
 
-#include <array>
-
 #include "service/lab/dice.h"
+#include "service/lab/frame_vectors.h"
 #include "service/lab/hardcases/case_run.h"
+#include "service/lab/scene_parts.h"
 #include "service/sph/world_description.h"
 
 namespace bleedsim::lab {
 
 inline constexpr double kCaseSpacing = 0.001;  ///< m
 inline constexpr double kCaseGravity = 9.81;   ///< m/s^2
-using Counts = std::array<int, 3>;             ///< particles along x, y, z
 
 /// No particle, tissue nor effect; domain +-50 spacings.
 sph::WorldDescription emptyScene();
@@ -30,16 +29,11 @@ void addPlane(sph::WorldDescription& scene, const sph::Vec3& point, const sph::V
 sph::WorldDescription poolScene(const Counts& box, int depth);
 /// A disc wound at the origin of a plane, under gravity; m and m^3/s.
 sph::WorldDescription woundScene(double radius, double flow);
-sph::WoundDescription discWound(double radius, double flow);
 sph::SetForce push(const sph::Vec3& at, double radius, const sph::Vec3& newtons);
 
-sph::Vec3 positionOf(const sph::FrameBuffer& frame, std::size_t particle);  ///< m
-sph::Vec3 velocityOf(const sph::FrameBuffer& frame, std::size_t particle);  ///< m/s
 /// Smallest distance of two particles, spacings; infinite with fewer than two.
 double smallestDistance(Trial& trial);
 double speedRms(const Trial& trial);  ///< m/s
-/// Sum of m |v|, kg m/s: what an error of momentum is measured by.
-double momentumScale(Trial& trial);
 /// By id, from 1 in the order of seeding.
 std::vector<sph::Vec3> positionsById(Trial& trial);
 

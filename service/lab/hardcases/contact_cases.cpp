@@ -12,9 +12,10 @@ namespace {
 /// also among all effects.
 class MomentumWatch {
  public:
-  explicit MomentumWatch(Trial& trial) : trial_{trial}, start_{trial.stats().momentum}, flow_{momentumScale(trial)} {}
+  explicit MomentumWatch(Trial& trial)
+      : trial_{trial}, start_{trial.stats().momentum}, flow_{momentumScale(trial.world(), trial.frame())} {}
 
-  void look() { flow_ = std::max(flow_, momentumScale(trial_)); }
+  void look() { flow_ = std::max(flow_, momentumScale(trial_.world(), trial_.frame())); }
   double error() const { return (trial_.stats().momentum - start_).norm() / flow_; }
 
  private:

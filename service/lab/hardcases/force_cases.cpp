@@ -88,22 +88,28 @@ void badCommands(CaseRun& run) {
   sph::World& world = trial->world();
   const std::uint64_t before = world.stateHash();
   std::vector<sph::Command> commands{sph::RemoveForce{5}, sph::RemoveWound{1}};
+  // In the middle of the floor, where nothing but the bad number is wrong.
+  const auto on_the_floor = [](double radius, double flow) {
+    sph::WoundDescription wound = discWound(radius, flow);
+    wound.position = {0.003, 0.003, 0};
+    return wound;
+  };
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     for (int axis = 0; axis < 3; ++axis) {
       const sph::Vec3 off = bad * sph::Vec3::Unit(axis);
       commands.emplace_back(push({0, 0, 0}, 0.003, off));
       commands.emplace_back(push(off, 0.003, {0, 0, 0}));
-      sph::WoundDescription wound = discWound(0.001, 1e-7);
+      sph::WoundDescription wound = on_the_floor(0.001, 1e-7);
       wound.position = off;
       commands.emplace_back(sph::AddWound{wound});
-      wound = discWound(0.001, 1e-7);
+      wound = on_the_floor(0.001, 1e-7);
       wound.normal = off;
       commands.emplace_back(sph::AddWound{wound});
     }
     commands.emplace_back(push({0, 0, 0}, bad, {1e-3, 0, 0}));
-    commands.emplace_back(sph::AddWound{discWound(bad, 1e-7)});
-    commands.emplace_back(sph::AddWound{discWound(0.001, bad)});
-    sph::WoundDescription wound = discWound(0.001, 0.0);
+    commands.emplace_back(sph::AddWound{on_the_floor(bad, 1e-7)});
+    commands.emplace_back(sph::AddWound{on_the_floor(0.001, bad)});
+    sph::WoundDescription wound = on_the_floor(0.001, 0.0);
     wound.drive = sph::PressureDriveSettings{.inlet_pressure = bad};
     commands.emplace_back(sph::AddWound{wound});
   }

@@ -79,12 +79,14 @@ sph::WorldDescription busyScene() {
   return scene;
 }
 
-/// What a session does at given steps: pushes, a wound that moves, a switched effect.
+/// What a session does at given steps: pushes, a wound that moves, viscosity that changes, repulsion that comes and goes unless
+/// every effect is on.
 bool act(CaseRun& run, Trial& trial, int step, int threads) {
   if (step == 10) return trial.apply(push({0, 0, 0.004}, 0.004, {0.01, 0, -0.005}));
-  if (step == 20) {
+  if (step == 20 || step == 35) {
     sph::WorldDescription thicker = busyScene();
     thicker.effects.viscosity->viscosity = kToggledViscosity;
+    if (step == 20) thicker.effects.repulsion.emplace();
     return trial.change(run.build(thicker, threads));
   }
   if (step == 30) {

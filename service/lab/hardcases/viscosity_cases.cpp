@@ -67,7 +67,7 @@ void checkerboard(CaseRun& run) {
   const auto trial = run.start(scene);
   if (!trial) return;
   const sph::Vec3 start = trial->stats().momentum;
-  const double scale = momentumScale(*trial);
+  const double scale = momentumScale(trial->world(), trial->frame());
   const double energy = trial->stats().kinetic_energy;
   if (!trial->runFor(0.005)) return;
   const sph::WorldStats stats = trial->stats();

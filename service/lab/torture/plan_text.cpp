@@ -13,12 +13,17 @@ std::string textOf(const sph::WoundDrive& drive) {
   return fmt::format("inlet pressure {:.17g} Pa", std::get<sph::PressureDriveSettings>(drive).inlet_pressure);
 }
 
+/// Discs are all that plans have.
+std::string textOf(const sph::PatchShape& shape) {
+  const auto* disc = std::get_if<sph::DiscPatch>(&shape);
+  return disc == nullptr ? std::string{} : fmt::format(" disc of {:.17g} m", disc->radius);
+}
+
 std::string textOf(const sph::UpdateWound& update) {
   std::string text = fmt::format("update wound {}", update.wound_id);
   if (update.position) text += fmt::format(" position {} m", textOf(*update.position));
   if (update.normal) text += fmt::format(" normal {}", textOf(*update.normal));
-  if (update.shape && std::holds_alternative<sph::DiscPatch>(*update.shape))
-    text += fmt::format(" disc of {:.17g} m", std::get<sph::DiscPatch>(*update.shape).radius);
+  if (update.shape) text += textOf(*update.shape);
   if (update.drive) text += fmt::format(" {}", textOf(*update.drive));
   return text;
 }
@@ -32,7 +37,8 @@ std::string textOf(const sph::Command& command) {
   if (const auto* remove = std::get_if<sph::RemoveWound>(&command)) return fmt::format("remove wound {}", remove->wound_id);
   if (const auto* update = std::get_if<sph::UpdateWound>(&command)) return textOf(*update);
   const sph::WoundDescription& wound = std::get<sph::AddWound>(command).wound;
-  return fmt::format("add wound at {} m, normal {}, {}", textOf(wound.position), textOf(wound.normal), textOf(wound.drive));
+  return fmt::format("add wound at {} m, normal {},{}, {}", textOf(wound.position), textOf(wound.normal), textOf(wound.shape),
+                     textOf(wound.drive));
 }
 
 }  // namespace

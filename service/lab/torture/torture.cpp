@@ -1,10 +1,12 @@
 #include "service/lab/torture/torture.h"
 
 #include <fmt/format.h>
+#include <optional>
 
 #include "service/lab/hardcases/always.h"
 #include "service/lab/hardcases/report.h"
 #include "service/scene/scene.h"
+#include "service/sph/tissue/signed_distance.h"
 
 namespace bleedsim::lab {
 namespace {
@@ -23,10 +25,32 @@ bool refusesBadLimit(sph::World& world, double limit) {
   return !world.step(limit).ok() && world.stateHash() == before && !world.faulted();
 }
 
-/// A refused command leaves no trace.
-bool applyCleanly(sph::World& world, const sph::Command& command) {
+/// More than half a spacing deep in tissue, or on it and facing it.
+bool isBuried(const sph::WorldDescription& scene, const sph::Vec3& position, const std::optional<sph::Vec3>& normal) {
+  const double half = 0.5001 * scene.spacing;
+  for (const sph::TissueDescription& tissue : scene.tissue) {
+    const auto wall = sph::signedDistance(tissue.shape, position);
+    const sph::Vec3 outward{wall.normal[0], wall.normal[1], wall.normal[2]};
+    if (wall.value < -half) return true;
+    if (normal && wall.value < 0.1 * half && normal->normalized().dot(outward) < -0.5) return true;
+  }
+  return false;
+}
+
+/// Whether the command places a wound where it would bleed inside tissue.
+bool buriesWound(const sph::World& world, const sph::Command& command) {
+  if (const auto* add = std::get_if<sph::AddWound>(&command)) {
+    return isBuried(world.description(), add->wound.position, add->wound.normal);
+  }
+  const auto* update = std::get_if<sph::UpdateWound>(&command);
+  return update != nullptr && update->position && isBuried(world.description(), *update->position, update->normal);
+}
+
+/// What is wrong with how a command is taken: a refused one leaves no trace, and a wound that bleeds inside tissue is refused.
+std::string applyCommand(sph::World& world, const sph::Command& command) {
   const std::uint64_t before = world.stateHash();
-  return world.apply(command).ok() || world.stateHash() == before;
+  if (!world.apply(command).ok()) return world.stateHash() == before ? "" : "a refused command left a trace";
+  return buriesWound(world, command) ? "a wound inside tissue was not refused" : "";
 }
 
 class PlanRun {
@@ -38,7 +62,8 @@ class PlanRun {
     double limit = std::numeric_limits<double>::infinity();
     for (int step = 0; step < plan_.steps; ++step) {
       for (const TimedCommand& timed : plan_.commands) {
-        if (timed.step == step && !applyCleanly(world_, timed.command)) return at(step, "a refused command left a trace");
+        if (timed.step != step) continue;
+        if (const std::string wrong = applyCommand(world_, timed.command); !wrong.empty()) return at(step, wrong);
       }
       for (const TimedLimit& timed : plan_.limits) {
         if (timed.step != step) continue;

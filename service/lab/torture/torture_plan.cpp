@@ -153,7 +153,7 @@ class Maker {
       scene::Wound& wound = *scene_.add_wounds();
       wound.set_name("wound" + std::to_string(k));
       const double radius = dx_ * dice_.between(0.4, 3.0);
-      // Clear of a container's sides: a patch that reaches into other tissue bleeds into it.
+      // Clear of a container's sides: a scene whose patch reaches into other tissue is refused as a whole.
       const double room_x = std::max(0.0, std::min(upper_.x(), -lower_.x()) - radius - dx_);
       const double room_y = std::max(0.0, std::min(upper_.y(), -lower_.y()) - radius - dx_);
       const double x = (k == 0 ? -0.5 : 0.5) * room_x;
@@ -176,17 +176,21 @@ class Maker {
     }
   }
 
+  static bool earlier(const TimedCommand& a, const TimedCommand& b) { return a.step < b.step; }
+
   void makeCommands() {
     const int commands = dice_.upTo(6);
     for (int k = 0; k < commands; ++k) plan_.commands.push_back({dice_.upTo(std::max(1, plan_.steps - 1)), command()});
-    std::stable_sort(plan_.commands.begin(), plan_.commands.end(),
-                     [](const TimedCommand& a, const TimedCommand& b) { return a.step < b.step; });
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const int limits = dice_.upTo(2);
     for (int k = 0; k < limits; ++k) {
       const double limit = dice_.chance(0.2) ? (dice_.chance(0.5) ? kNan : -1.0) : dice_.overMagnitudes(1e-9, 1.0);
       plan_.limits.push_back({dice_.upTo(std::max(1, plan_.steps - 1)), limit});
     }
+    // Last, so that what a seed has brought before stays.
+    const int wounds = onAPlane() ? dice_.upTo(2) : 0;
+    for (int k = 0; k < wounds; ++k) plan_.commands.push_back({dice_.upTo(std::max(1, plan_.steps - 1)), newWound()});
+    std::stable_sort(plan_.commands.begin(), plan_.commands.end(), earlier);
   }
 
   sph::Command command() {
@@ -197,16 +201,40 @@ class Maker {
     sph::UpdateWound update;
     update.wound_id = static_cast<std::uint32_t>(1 + dice_.upTo(1));
     if (dice_.chance(0.5)) update.drive = sph::FlowDrive{dice_.overMagnitudes(1e-12, 1e-5)};
-    if (onAPlane() && dice_.chance(0.4)) update.position = placeOnThePlane();
+    if (onAPlane() && dice_.chance(0.4)) moveWound(update);
     if (dice_.chance(0.2)) update.shape = sph::DiscPatch{dx_ * dice_.between(0.3, 3.0)};
     if (dice_.chance(0.1)) update.position = sph::Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     return update;
   }
 
   bool onAPlane() const { return scene_.tissue_size() == 1 && scene_.tissue(0).has_plane(); }
-  sph::Vec3 placeOnThePlane() {
-    const sph::Vec3 at = 0.7 * dice_.within(-half_, half_);
-    return {at.x(), at.y(), -at.x() * normal_.x() / normal_.z()};
+  struct Place {
+    sph::Vec3 position;
+    sph::Vec3 normal;
+  };
+  /// On the plane; inside it or turned into it, which must be refused, a quarter of the time each.
+  Place placeForWound() {
+    const sph::Vec3 part = dice_.within(sph::Vec3::Constant(-1.0), sph::Vec3::Constant(1.0));
+    const sph::Vec3 at = 0.7 * part.cwiseProduct(half_);
+    Place place{{at.x(), at.y(), -at.x() * normal_.x() / normal_.z()}, normal_};
+    if (part.z() < -0.5) place.position += part.z() * 2.0 * dx_ * normal_;
+    if (part.z() > 0.5) place.normal = -normal_;
+    return place;
+  }
+  void moveWound(sph::UpdateWound& update) {
+    const Place place = placeForWound();
+    update.position = place.position;
+    if (place.normal != normal_) update.normal = place.normal;
+  }
+  sph::AddWound newWound() {
+    const Place place = placeForWound();
+    const double radius = dx_ * dice_.between(0.4, 3.0);
+    sph::AddWound add;
+    add.wound.position = place.position;
+    add.wound.normal = place.normal;
+    add.wound.shape = sph::DiscPatch{radius};
+    add.wound.drive = sph::FlowDrive{std::numbers::pi * radius * radius * design_ * dice_.between(0.0, 0.3)};
+    return add;
   }
 
   /// A millionth of a newton to a thousand of them; sometimes no number.

@@ -26,14 +26,6 @@ Knobs withPrecision(const Knobs& knobs, Precision precision) {
   return own;
 }
 
-/// Sum of m |v|, kg m/s.
-double momentumScale(const sph::World& world) {
-  const Frame frame = frameOf(world);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < frame.size(); ++i) sum += frame.velocity(i).norm();
-  return world.particleMass() * sum;
-}
-
 Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
 }
@@ -75,7 +67,7 @@ Status collide(const Knobs& knobs, const Width& width, CaseResult& result) {
   auto world = CaseWorld::create(scene, withPrecision(knobs, width.precision), result.cost);
   if (!world) return world.status();
   const sph::WorldStats before = world->stats();
-  const double scale = momentumScale(**world);
+  const double scale = momentumScale(**world, frameOf(**world).buffer);
   if (Status status = world->runFor(0.05); !status.ok()) return status;
   const sph::WorldStats after = world->stats();
   if (!(after.kinetic_energy < 0.9 * before.kinetic_energy)) return {StatusCode::internal, "the blocks did not meet"};
@@ -106,7 +98,7 @@ Status turn(const Knobs& knobs, const Width& width, CaseResult& result) {
   if (!world) return world.status();
   const AngularMomentum before = angularMomentum(**world);
   const Vec3 momentum = world->stats().momentum;
-  const double scale = momentumScale(**world);
+  const double scale = momentumScale(**world, frameOf(**world).buffer);
   for (int k = 0; k < 50; ++k) {
     if (Status status = world->step(1.0); !status.ok()) return status;
   }

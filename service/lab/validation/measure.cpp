@@ -13,10 +13,6 @@ using sph::Vec3;
 
 constexpr std::uint32_t kAttributes = sph::kFrameVelocity | sph::kFrameDensity | sph::kFramePlatelet;
 
-Vec3 extentOf(const sph::WorldDescription& scene, const Counts& counts) {
-  return scene.spacing * Vec3{double(counts[0]), double(counts[1]), double(counts[2])};
-}
-
 void addJittered(sph::WorldDescription& scene, const Counts& counts, double jitter) {
   addBlock(scene, Vec3::Zero(), counts);
   scene.fluid_blocks.back().jitter = jitter;
@@ -52,23 +48,20 @@ sph::WorldDescription emptyScene(const Knobs& knobs, double spacing, double desi
 int periodicCount(const Knobs& knobs) { return std::max(8, static_cast<int>(std::ceil(3.0 * knobs.support_ratio + 1e-6))); }
 
 void addBlock(sph::WorldDescription& scene, const Vec3& lower, const Counts& counts) {
-  sph::FluidBlock block;
-  block.lower = lower;
-  block.upper = lower + extentOf(scene, counts);
-  scene.fluid_blocks.push_back(block);
+  scene.fluid_blocks.push_back(blockOf(scene.spacing, lower, counts));
   scene.capacity += static_cast<std::uint32_t>(counts[0] * counts[1] * counts[2]);
 }
 
 void fillPeriodic(sph::WorldDescription& scene, const Counts& counts, double jitter) {
   scene.domain.lower = Vec3::Zero();
-  scene.domain.upper = extentOf(scene, counts);
+  scene.domain.upper = extentOf(scene.spacing, counts);
   scene.domain.periodic = {true, true, true};
   addJittered(scene, counts, jitter);
 }
 
 void fillBox(sph::WorldDescription& scene, const Counts& counts, double jitter) {
   sph::BoxShape box;
-  box.upper = extentOf(scene, counts);
+  box.upper = extentOf(scene.spacing, counts);
   scene.tissue.push_back({.name = "box", .shape = box});
   scene.domain.lower = Vec3::Constant(-8.0 * scene.spacing);
   scene.domain.upper = box.upper + Vec3::Constant(8.0 * scene.spacing);
@@ -97,34 +90,14 @@ void setFlow(sph::WorldDescription& scene, int along, const VelocityField& field
 }
 
 void addParticle(sph::WorldDescription& scene, const Vec3& position, const Vec3& velocity) {
-  sph::FluidBlock block;
-  block.lower = position - Vec3::Constant(0.5 * scene.spacing);
-  block.upper = position + Vec3::Constant(0.5 * scene.spacing);
-  block.velocity = velocity;
-  scene.fluid_blocks.push_back(block);
+  scene.fluid_blocks.push_back(particleAt(scene.spacing, position, velocity));
   ++scene.capacity;
 }
 
 void addBall(sph::WorldDescription& scene, double radius, const std::function<bool(const Vec3&)>& inside) {
-  const int reach = static_cast<int>(std::ceil(radius / scene.spacing));
-  for (int z = -reach; z < reach; ++z) {
-    for (int y = -reach; y < reach; ++y) {
-      for (int x = -reach; x < reach; ++x) {
-        const Vec3 at = scene.spacing * Vec3{x + 0.5, y + 0.5, z + 0.5};
-        if (at.norm() <= radius && inside(at)) addParticle(scene, at, Vec3::Zero());
-      }
-    }
-  }
-}
-
-Vec3 Frame::position(std::size_t i) const {
-  const float* p = buffer.position.data() + 3 * i;
-  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-}
-
-Vec3 Frame::velocity(std::size_t i) const {
-  const float* v = buffer.velocity.data() + 3 * i;
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+  forEachInBall(scene.spacing, Vec3::Zero(), radius, [&](const Vec3& at) {
+    if (inside(at)) addParticle(scene, at, Vec3::Zero());
+  });
 }
 
 Frame frameOf(const sph::World& world) {
@@ -132,12 +105,6 @@ Frame frameOf(const sph::World& world) {
   frame.buffer.reserve(world.description().capacity, kAttributes);
   world.copyFrame(frame.buffer, kAttributes);
   return frame;
-}
-
-sph::WorldStats statsOf(const sph::World& world) {
-  sph::WorldStats stats;
-  world.collectStats(stats);
-  return stats;
 }
 
 sph::WorldDescription restarted(const sph::World& world, const VelocityField& velocity) {

@@ -1,20 +1,18 @@
 // What cases build their scenes from and read from their worlds. SI units.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "service/lab/frame_vectors.h"
+#include "service/lab/scene_parts.h"
 #include "service/lab/validation/knobs.h"
 
 namespace bleedsim::lab {
 
 inline constexpr double kGravity = 9.81;         ///< m/s^2
 inline constexpr double kBloodDensity = 1060.0;  ///< kg/m^3
-
-/// Particles along x, y and z.
-using Counts = std::array<int, 3>;
 
 /// Blood without a particle, tissue or effect, at the knobs' support ratio, Mach factor and seed.
 sph::WorldDescription emptyScene(const Knobs& knobs, double spacing, double design_speed);
@@ -46,13 +44,12 @@ struct Frame {
   sph::FrameBuffer buffer;
 
   std::size_t size() const { return buffer.count; }
-  sph::Vec3 position(std::size_t i) const;
-  sph::Vec3 velocity(std::size_t i) const;
+  sph::Vec3 position(std::size_t i) const { return positionOf(buffer, i); }
+  sph::Vec3 velocity(std::size_t i) const { return velocityOf(buffer, i); }
   double density(std::size_t i) const { return static_cast<double>(buffer.density[i]); }
   double platelet(std::size_t i) const { return static_cast<double>(buffer.platelet[i]); }
 };
 Frame frameOf(const sph::World& world);
-sph::WorldStats statsOf(const sph::World& world);
 
 /// The description of a world with its particles where they are now.
 sph::WorldDescription restarted(

@@ -16,6 +16,7 @@ constexpr double kRounding = 1e-6;
 
 WoundRules::WoundRules(const WorldDescription& description, double speed_of_sound)
     : domain_{description.domain},
+      tissue_{description.tissue},
       spacing_{description.spacing},
       support_radius_{description.supportRadius()},
       rest_density_{description.rest_density},
@@ -67,6 +68,10 @@ std::optional<PatchMeetsItself> WoundRules::meetsItself(const Opening& opening) 
   return std::nullopt;
 }
 
+std::optional<BuriedPatch> WoundRules::buried(const Opening& opening) const {
+  return findBuried(opening.frame, opening.patch, tissue_, domain_, spacing_);
+}
+
 bool WoundRules::overlap(const Throat& candidate, const Throat& other) const {
   const double separation = kSiteSeparation * spacing_;
   const double apart = nearestOffset(domain_, other.frame().origin, candidate.frame().origin).norm();
@@ -100,6 +105,7 @@ std::vector<WoundProblem> findWoundProblems(const WorldDescription& description,
     }
     if (const auto outside = rules.outside(*opening)) problems.push_back({i, *outside});
     if (const auto meets_itself = rules.meetsItself(*opening)) problems.push_back({i, *meets_itself});
+    if (auto buried = rules.buried(*opening)) problems.push_back({i, std::move(*buried)});
     throats[i].emplace(rules.open(1, *opening));
     for (std::size_t other = 0; other < i; ++other) {
       if (throats[other] && rules.overlap(*throats[i], *throats[other])) problems.push_back({i, WoundOverlap{other}});

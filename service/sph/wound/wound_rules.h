@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "service/sph/world_description.h"
+#include "service/sph/wound/buried_patch.h"
 #include "service/sph/wound/orifice.h"
 #include "service/sph/wound/patch_geometry.h"
 #include "service/sph/wound/patch_sites.h"
@@ -47,6 +48,7 @@ class WoundRules {
   /// The first axis along which the patch is outside.
   std::optional<PatchOutside> outside(const Opening& opening) const;
   std::optional<PatchMeetsItself> meetsItself(const Opening& opening) const;
+  std::optional<BuriedPatch> buried(const Opening& opening) const;
   /// Both throats' particles could come closer than a spacing.
   bool overlap(const Throat& candidate, const Throat& other) const;
   /// For speedExcess() and checkSpeed().
@@ -65,6 +67,7 @@ class WoundRules {
 
  private:
   Domain domain_;
+  std::vector<TissueDescription> tissue_;
   double spacing_ = 0.0;
   double support_radius_ = 0.0;
   double rest_density_ = 0.0;
@@ -79,10 +82,11 @@ struct WoundOverlap {
 /// A broken rule of the wound with this index in the description. A Status is about its shape, directions or position.
 struct WoundProblem {
   std::size_t wound = 0;
-  std::variant<Status, PatchOutside, PatchMeetsItself, WoundOverlap, SpeedExcess> what;
+  std::variant<Status, PatchOutside, PatchMeetsItself, BuriedPatch, WoundOverlap, SpeedExcess> what;
 };
 
-/// Every rule that a wound of the description breaks, by rising index. Numbers are taken to be finite.
+/// Every rule that a wound of the description breaks, by rising index. Numbers, and those
+/// of the tissue, are taken to be sound.
 std::vector<WoundProblem> findWoundProblems(const WorldDescription& description, double speed_of_sound);
 
 }  // namespace bleedsim::sph

@@ -14,6 +14,18 @@ constexpr std::size_t kMaxNameLength = 256;
 
 Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
 
+const char* nameOf(BuriedPatch::Fault fault) {
+  switch (fault) {
+    case BuriedPatch::Fault::position:
+      return "position";
+    case BuriedPatch::Fault::normal:
+      return "normal";
+    case BuriedPatch::Fault::extent:
+      break;
+  }
+  return "patch";
+}
+
 }  // namespace
 
 WoundSet::WoundSet(const WorldDescription& description, double speed_of_sound)
@@ -190,6 +202,7 @@ Result<Opening> WoundSet::planOpening(const WoundDescription& wound) const {
                           " m from its position; on this scene's periodic side it may reach ", meets_itself->most,
                           " m, or it would meet itself"));
   }
+  if (const auto buried = rules_.buried(*opening)) return invalid(textOf("wound ", nameOf(buried->fault), " ", buried->reason));
   return opening;
 }
 

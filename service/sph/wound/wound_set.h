@@ -31,7 +31,8 @@ class WoundSet {
 
   /// The new wound's id: from 1, rising, never reused. Refusals leave everything as it is:
   /// invalid_argument: a value that is not finite or out of range, a zero normal, a patch outside the domain, too wide for a
-  /// periodic side or over another wound's, a column faster than the scene's limit; capacity: too many wounds or sites.
+  /// periodic side, inside tissue or over another wound's, a column faster than the scene's limit; capacity: too many wounds or
+  /// sites.
   Result<std::uint32_t> add(const WoundDescription& wound);
 
   /// Changes the fields that are given. Another position, normal, tangent or any shape withdraws the throat and opens a new one,

@@ -148,6 +148,28 @@ TEST_F(Resume, UsesTheOneBeforeWhereTheNewestIsDamaged) {
   EXPECT_EQ(again.wait(), 0) << again.output();
 }
 
+TEST_F(Resume, ItsDurationIsThatOfTheSessionBeforeAndAfterTheKill) {
+  auto daemon = start(options());
+  ASSERT_NE(daemon, nullptr);
+  waitCheckpoints(daemon->session(), 2);
+  kill(*daemon);
+  const double until = daemon->session().status()->sim_time_s + 0.2;
+  daemon = start(options({"--duration", std::to_string(until)}));
+  ASSERT_NE(daemon, nullptr);
+  EXPECT_EQ(daemon->process().wait(), 0);
+  // The option's text has six decimals, and a step is far shorter than 10 ms.
+  const auto over_there = [until](const client::SessionStatus& status) { return status.sim_time_s >= until - 1e-6; };
+  const auto end = daemon->session().waitStatus(over_there, test::kPatience);
+  ASSERT_TRUE(end.ok()) << end.status().message();
+  EXPECT_LT(end->sim_time_s, until + 0.01);
+
+  test::ChildProcess over{{BLEEDD_PATH, "--scene", sceneFile(), "--session", session_, "--domain", std::to_string(kDomain),
+                           "--checkpoint-dir", checkpointDir(), "--resume", "--duration", "0.001"},
+                          true};
+  EXPECT_EQ(over.wait(), 0) << over.output();
+  EXPECT_THAT(over.output(), HasSubstr("nothing is left to run: --duration is 0.001 s"));
+}
+
 TEST_F(Resume, StartsTheSceneWhereThereIsNothingToResumeFrom) {
   const auto daemon = start(options());
   ASSERT_NE(daemon, nullptr);

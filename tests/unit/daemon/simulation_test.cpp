@@ -52,6 +52,35 @@ TEST_F(SimulationTest, CatchesUpStepByStepAndSaysHowFarItIsBehind) {
   EXPECT_NEAR(simulation_->world().time(), 0.5, 2e-3);
 }
 
+TEST_F(SimulationTest, EndsOnceItsDurationIsReachedAndShowsThatState) {
+  start({{dds::PaceMode::maximum, 1.0}, {}, 0.0105});
+  while (tick().kind != Simulation::Next::Kind::stop) ASSERT_LT(simulation_->world().stepCount(), 100U);
+  EXPECT_EQ(simulation_->world().stepCount(), 11U) << "the first step at or after it, of 1 ms each";
+  EXPECT_DOUBLE_EQ(channels_.frames.load()->stats.time, 0.011);
+}
+
+TEST_F(SimulationTest, TakesNoStepWhereItsDurationIsOverFromTheStart) {
+  start({{dds::PaceMode::maximum, 1.0}, {}, 0.0});
+  EXPECT_EQ(tick().kind, Simulation::Next::Kind::stop);
+  EXPECT_EQ(simulation_->world().stepCount(), 0U);
+  EXPECT_NE(channels_.frames.load(), nullptr) << "its state is shown all the same";
+}
+
+// A session that resumes at 12 ms with a duration of 15 ms has 3 ms left; at 15 ms it has none.
+TEST_F(SimulationTest, WhatRanBeforeAResumeCountsForTheDuration) {
+  for (const std::uint64_t before : {12U, 15U}) {
+    LoadedScene resumed = fakeScene("first", log_);
+    while (resumed.world->stepCount() < before) ASSERT_TRUE(resumed.world->step(1.0).ok());
+    resumed.restored.emplace();
+    resumed.restored->loaded = resumed.scene;
+    resumed.restored->head.mark.frame_rate = 10.0;
+    simulation_ = std::make_unique<Simulation>(SimulationOptions{{dds::PaceMode::maximum, 1.0}, {}, 0.015}, std::move(resumed),
+                                               fakeFactory(log_), channels_, now_);
+    while (tick().kind != Simulation::Next::Kind::stop) ASSERT_LT(simulation_->world().stepCount(), 100U);
+    EXPECT_EQ(simulation_->world().stepCount(), 15U);
+  }
+}
+
 TEST_F(SimulationTest, KeysCommandsToTheStepThatUsesThemFirst) {
   start();
   ticks(7);

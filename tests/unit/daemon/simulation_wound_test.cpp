@@ -251,6 +251,31 @@ tissue { plane { normal { z: 1 } } }
 fluid_blocks { lower_m { x: -0.01 y: -0.01 } upper_m { x: 0.01 y: 0.01 z: 0.01 } }
 )";
 
+TEST_F(WoundTest, OneInsideTissueIsRefusedWithTheReasonAndNotWrittenDown) {
+  startWorld(kBlockScene);
+  tick();
+  journal();
+  sph::WoundDescription wound{.name = {}, .position = {0.02, 0.0, -0.005}, .shape = sph::DiscPatch{0.004}};
+  const dds::Reply inside = ask(sph::AddWound{wound});
+  EXPECT_EQ(inside.code, dds::ReplyCode::invalid);
+  EXPECT_EQ(inside.reason, "wound position (0.02, 0, -0.005) m is 5 mm inside tissue: use (0.02, 0, 0) m, on the surface");
+  EXPECT_LT(inside.reason.size(), 128U) << "a reply has no room for more";
+  wound.position.z() = 0.0;
+  wound.normal = -sph::Vec3::UnitZ();
+  EXPECT_THAT(ask(sph::AddWound{wound}).reason, HasSubstr("turn it to the blood's side, (0, 0, 1)"));
+  EXPECT_TRUE(journal().empty());
+  EXPECT_TRUE(simulation_->world().wounds().empty());
+  wound.normal = sph::Vec3::UnitZ();
+  const dds::Reply on_it = ask(sph::AddWound{wound});
+  ASSERT_EQ(on_it.code, dds::ReplyCode::accepted) << on_it.reason;
+  journal();
+  sph::UpdateWound moved;
+  moved.wound_id = on_it.object_id;
+  moved.position = sph::Vec3{0.02, 0.0, -0.002};
+  EXPECT_EQ(ask(moved).code, dds::ReplyCode::invalid);
+  EXPECT_TRUE(journal().empty());
+}
+
 // One step of 0.2 ms changes a speed of 0.2 m/s by gravity alone by 1 %, the energy by 2 %; an impulse of tension is more than 5
 // %.
 TEST_F(WoundTest, TheBloodThatRunsFeelsNoImpulse) {

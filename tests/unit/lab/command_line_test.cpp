@@ -1,6 +1,9 @@
 // bleedlab's command line: what it refuses, and what it says then.
+#include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "service/lab/app.h"
 
@@ -133,6 +136,28 @@ INSTANTIATE_TEST_SUITE_P(
                 {"bench", "--compare", SCENE_DIR "/round_wound.textproto"},
                 "is not a result of 'bleedlab bench --json'"}),
     [](const auto& tested) { return std::string{tested.param.name}; });
+
+// The machine-readable result goes to stdout, alone, or to a file; the cheapest case of each command stands for it.
+TEST(CommandLine, JsonGoesWhereItIsAsked) {
+  const std::string file = testing::TempDir() + "lab_command_line.json";
+  for (const std::vector<const char*>& command : {std::vector<const char*>{"validate", "--case", "interpolation"},
+                                                  {"hardcases", "--case", "bad_commands", "--model", "sound"}}) {
+    std::vector<const char*> line = command;
+    line.push_back("--json");
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run(line).code, 0);
+    const std::string printed = testing::internal::GetCapturedStdout();
+    line.push_back(file.c_str());
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run(line).code, 0);
+    const std::string table = testing::internal::GetCapturedStdout();
+    EXPECT_TRUE(nlohmann::json::accept(printed)) << printed;
+    EXPECT_FALSE(nlohmann::json::accept(table)) << "the table stays";
+    std::ifstream in{file};
+    EXPECT_TRUE(nlohmann::json::accept(in));
+  }
+  std::filesystem::remove(file);
+}
 
 TEST(CommandLine, AMissingSceneIsNamedWithTheFolder) {
   const Outcome outcome = run({"paper", "table2", "--scenes", "/nonexistent"});

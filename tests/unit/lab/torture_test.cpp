@@ -79,6 +79,33 @@ TEST(Shrink, stopsWhenItsTriesAreSpent) {
   EXPECT_EQ(toText(same), toText(rich));
 }
 
+/// A command that puts a new wound more than a spacing deep into the plane of a plan.
+bool buries(const TorturePlan& plan) {
+  for (const TimedCommand& timed : plan.commands) {
+    const auto* add = std::get_if<sph::AddWound>(&timed.command);
+    if (add == nullptr) continue;
+    const scene::Vec3& n = plan.scene.tissue(0).plane().normal();
+    if (add->wound.position.dot(sph::Vec3{n.x(), n.y(), n.z()}) < -plan.scene.resolution().spacing_m()) return true;
+  }
+  return false;
+}
+
+TEST(Torture, placesWoundsInsideTissueAndSeesThemRefused) {
+  const TorturePlan plan = planThat([](const TorturePlan& some) { return buries(some) && !runPlan(some).refused; });
+  const TortureOutcome outcome = runPlan(plan);
+  EXPECT_TRUE(outcome.holds) << outcome.text;
+  const auto scene = scene::parseScene(toText(plan));
+  ASSERT_TRUE(scene.ok());
+  const auto world = sph::createWorld(scene->world, {});
+  ASSERT_TRUE(world.ok());
+  int refused = 0;
+  for (const TimedCommand& timed : plan.commands) {
+    const bool adds = std::holds_alternative<sph::AddWound>(timed.command);
+    if (adds && (*world)->apply(timed.command).status().message().find("inside tissue") != std::string::npos) ++refused;
+  }
+  EXPECT_GE(refused, 1);
+}
+
 // What is written is a scene of its own, which bleedd and bleedlab read; the commands stand in front of it.
 TEST(PlanText, isASceneWithItsCommands) {
   const TorturePlan rich = planThat([](const TorturePlan& plan) { return isRich(plan) && !runPlan(plan).refused; });

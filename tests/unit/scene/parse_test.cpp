@@ -53,7 +53,7 @@ TEST(ParseScene, ConvertsTissueWoundsAndBlocks) {
   const sph::WorldDescription& world = result->world;
   ASSERT_EQ(world.tissue.size(), 3u);
   EXPECT_EQ(std::get<sph::PlaneShape>(world.tissue[0].shape).normal, sph::Vec3(0, 0, 1)) << "normals become unit vectors";
-  EXPECT_EQ(std::get<sph::PlaneShape>(world.tissue[0].shape).point.z(), 0.001);
+  EXPECT_EQ(std::get<sph::PlaneShape>(world.tissue[0].shape).point.z(), -0.001);
   EXPECT_EQ(world.tissue[0].slip, 0.25);
   const auto& box = std::get<sph::BoxShape>(world.tissue[1].shape);
   EXPECT_TRUE(box.open_top);
@@ -63,7 +63,7 @@ TEST(ParseScene, ConvertsTissueWoundsAndBlocks) {
   const auto& bowl = std::get<sph::BowlShape>(world.tissue[2].shape);
   EXPECT_EQ(bowl.sphere_radius, 0.03);
   EXPECT_EQ(bowl.depth, 0.01);
-  EXPECT_EQ(bowl.rim_center.z(), 0.002);
+  EXPECT_EQ(bowl.rim_center.z(), -0.002);
 
   ASSERT_EQ(world.wounds.size(), 4u);
   EXPECT_EQ(world.wounds[0].normal, sph::Vec3(0, 0, 1));

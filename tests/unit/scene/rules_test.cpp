@@ -78,8 +78,8 @@ const std::vector<Rule>& rules() {
       {"max_sources: 8", "max_sources: 257", "effects.applied_force.max_sources: ", "value 257"},
       // tissue
       {"name: \"floor\"", quotedRun("name: ", 65), "tissue[0].name: ", "has 65 bytes"},
-      {"plane { point_m { z: 0.001 } normal { z: 2 } }", "", "tissue[0]: ", "has no shape; give one of plane, box, bowl"},
-      {"point_m { z: 0.001 }", "point_m { z: 11 }", "tissue[0].plane.point_m.z: ", "value 11 is out of range"},
+      {"plane { point_m { z: -0.001 } normal { z: 2 } }", "", "tissue[0]: ", "has no shape; give one of plane, box, bowl"},
+      {"point_m { z: -0.001 }", "point_m { z: 11 }", "tissue[0].plane.point_m.z: ", "value 11 is out of range"},
       {"normal { z: 2 }", "", "tissue[0].plane.normal: ", "has length 0"},
       {"normal { z: 2 }", "normal { z: nan }", "tissue[0].plane.normal.z: ", "not finite"},
       {"slip: 0.25", "slip: 1.01", "tissue[0].slip: ", "value 1.01 is out of range, allowed 0 to 1"},
@@ -92,7 +92,7 @@ const std::vector<Rule>& rules() {
       {"0.03 depth_m: 0.01", "0.03 depth_m: 0.031",
        "tissue[2].bowl.depth_m: ", "value 0.031 is out of range, allowed 0.0001 to 0.03"},
       {"0.03 depth_m: 0.01", "0.03", "tissue[2].bowl.depth_m: ", "value 0 is out of range"},
-      {"rim_center_m { z: 0.002 }", "rim_center_m { y: -12 }", "tissue[2].bowl.rim_center_m.y: ", "value -12"},
+      {"rim_center_m { z: -0.002 }", "rim_center_m { y: -12 }", "tissue[2].bowl.rim_center_m.y: ", "value -12"},
       {"tissue {", repeated("tissue { plane { normal { z: 1 } } }\n", 14) + "tissue {",
        "tissue: ", "17 are given, allowed are at most 16"},
       // wounds
@@ -101,6 +101,8 @@ const std::vector<Rule>& rules() {
       {"position_m { x: 0.01 }", "position_m { x: 0.06 }",
        "wounds[0].position_m.x: ", "is outside the domain, allowed -0.05 to 0.05 (m)"},
       {"position_m { x: 0.01 }", "position_m { z: -0.021 }", "wounds[0].position_m.z: ", "is outside the domain"},
+      {"position_m { x: 0.01 }", "position_m { x: 0.01 z: -0.006 }", "wounds[0].position_m: ", "mm inside tissue: use ("},
+      {"normal { z: 3 }", "normal { z: -3 }", "wounds[0].normal: ", "turn it to the blood's side"},
       {"position_m { x: 0.01 }", "position_m { x: nan }", "wounds[0].position_m.x: ", "not finite"},
       {"normal { z: 3 }", "normal { z: 0 }", "wounds[0].normal: ", "give a vector that is not zero"},
       {"normal { z: 3 }", "normal { z: 1e200 }", "wounds[0].normal: ", "allowed 1e-06 to 1000000"},
@@ -193,7 +195,7 @@ TEST(SceneRules, TheEndsOfTheRangesAreAllowed) {
       {"0.03 depth_m: 0.01", "0.03 depth_m: 0.03"},
       {"jitter: 0.1", "jitter: 0.2"},
       {"flow_ml_per_s: 2", "flow_ml_per_s: 0"},
-      {"position_m { x: 0.01 }", "position_m { x: 0.05 }"},
+      {"position_m { x: 0.01 }", "position_m { x: 0.01 z: 0.05 }"},
       {"\"full\"", quotedRun("", 64)},
       {"\"full\"", "\"Gef\\303\\244\\303\\237\""},
   };

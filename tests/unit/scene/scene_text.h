@@ -27,9 +27,9 @@ effects {
   viscosity { viscosity_pa_s: 0.005 }
   applied_force { max_sources: 8 }
 }
-tissue { name: "floor" plane { point_m { z: 0.001 } normal { z: 2 } } slip: 0.25 }
+tissue { name: "floor" plane { point_m { z: -0.001 } normal { z: 2 } } slip: 0.25 }
 tissue { name: "tray" box { lower_m { x: -0.04 y: -0.04 z: 0 } upper_m { x: 0.04 y: 0.04 z: 0.04 } open_top: true } }
-tissue { name: "organ" bowl { rim_center_m { z: 0.002 } sphere_radius_m: 0.03 depth_m: 0.01 } }
+tissue { name: "organ" bowl { rim_center_m { z: -0.002 } sphere_radius_m: 0.03 depth_m: 0.01 } }
 wounds { name: "a" position_m { x: 0.01 } normal { z: 3 } disc { radius_m: 0.003 } flow_ml_per_s: 2 }
 wounds { name: "b" position_m { y: 0.02 } tangent { x: 1 } ellipse { semi_axis_u_m: 0.002 semi_axis_v_m: 0.001 }
          pressure { inlet_pressure_mmhg: 1 discharge_coefficient: 0.7 } }

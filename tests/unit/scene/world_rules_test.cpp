@@ -18,6 +18,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 /// A flat domain of +-50 mm, 1 mm spacing, made for 0.3 m/s.
@@ -106,6 +107,26 @@ TEST(WorldRules, EachNamesItsField) {
   const std::string pressure =
       "wounds { disc { radius_m: 0.003 } pressure { inlet_pressure_mmhg: 20 discharge_coefficient: 1 } }\n";
   EXPECT_THAT(problemsOf(sceneWith(pressure)), IsEmpty()) << "a scene's own inlet pressure sets its speed of sound";
+}
+
+TEST(WorldRules, WoundsThatBleedInsideTissueAreToldBesideAllElse) {
+  const std::string tissue = "tissue { name: \"liver\" plane { normal { z: 1 } } }\n";
+  const std::string at = "wounds { disc { radius_m: 0.003 } flow_ml_per_s: ";
+  const std::string text =
+      sceneWith(tissue + at + "1 position_m { z: -0.004 } }\n" + at + "1 position_m { x: 0.01 } normal { z: -1 } }\n" + at +
+                "500 position_m { x: 0.02 } normal { x: 1 z: 1 } }\n" + at + "-1 position_m { z: -0.004 } }\n" + at +
+                "1 position_m { x: -0.02 z: -0.0005 } }\n");
+  EXPECT_THAT(
+      problemsOf(text),
+      testing::UnorderedElementsAre(
+          "wounds[0].position_m: value (0, 0, -0.004) m is 4 mm inside tissue: use (0, 0, 0) m, on the surface of 'liver'",
+          "wounds[1].normal: value (0, 0, -1) lets blood out 0.5 mm inside tissue at (0.01, 0, 0) m: turn it to the blood's "
+          "side, (0, 0, 1) of 'liver'",
+          AllOf(StartsWith("wounds[2].disc: reaches "), HasSubstr("turn its normal to (0, 0, 1) of 'liver'")),
+          StartsWith("wounds[2].flow_ml_per_s: value 500"), StartsWith("wounds[3].flow_ml_per_s: value -1")))
+      << "one with a problem of its own is not judged any further";
+  const std::string bad_tissue = replaced(text, "plane { normal { z: 1 } }", "plane { normal { z: 0 } }");
+  EXPECT_THAT(problemsOf(bad_tissue), Not(testing::Contains(HasSubstr("inside tissue"))));
 }
 
 TEST(WorldRules, APatchMustNotMeetItselfAcrossAPeriodicSide) {

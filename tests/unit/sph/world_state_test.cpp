@@ -36,29 +36,6 @@ void expectSameSteps(World& a, World& b, int count) {
   }
 }
 
-void expectSameFigures(const World& a, const World& b) {
-  const WorldStats x = test::statsOf(a);
-  const WorldStats y = test::statsOf(b);
-  EXPECT_EQ(x.step, y.step);
-  EXPECT_EQ(x.dt, y.dt);
-  EXPECT_EQ(x.particles, y.particles);
-  EXPECT_EQ(x.injected, y.injected);
-  EXPECT_EQ(x.removed, y.removed);
-  EXPECT_EQ(x.emitted_volume, y.emitted_volume);
-  EXPECT_EQ(x.commanded_volume, y.commanded_volume);
-  EXPECT_EQ(x.mean_density_error, y.mean_density_error);
-  EXPECT_EQ(x.max_speed, y.max_speed);
-  EXPECT_EQ(x.viscosity_iterations, y.viscosity_iterations);
-  EXPECT_EQ(x.counters, y.counters);
-  ASSERT_EQ(a.wounds().size(), b.wounds().size());
-  for (std::size_t i = 0; i < a.wounds().size(); ++i) {
-    EXPECT_EQ(a.wounds()[i].id, b.wounds()[i].id);
-    EXPECT_EQ(a.wounds()[i].emitted, b.wounds()[i].emitted);
-    EXPECT_EQ(a.wounds()[i].flow, b.wounds()[i].flow);
-    EXPECT_EQ(a.woundName(a.wounds()[i].id), b.woundName(a.wounds()[i].id));
-  }
-}
-
 /// A restored twin of `world` steps on like it, and so does one that comes of the twin.
 void expectGoesOn(World& world, const WorldOptions& options, int steps = 40) {
   const Bytes state = saved(world);

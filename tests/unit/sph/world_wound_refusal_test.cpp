@@ -75,6 +75,13 @@ std::vector<Refusal> refusals() {
          w.position = {0.001, 0.0, 0.0};
        }),
        kBad},
+      {"inside the tissue", wound([](W& w) { w.position.z() = -0.002; }), kBad},
+      {"normal into the tissue", wound([](W& w) { w.normal = -Vec3::UnitZ(); }), kBad},
+      {"update into the tissue", update([](U& u) {
+         u.position = Vec3{0.0, 0.0, -0.002};
+       }),
+       kBad},
+      {"update normal into the tissue", update([](U& u) { u.normal = -Vec3::UnitZ(); }), kBad},
       {"update outside", update([](U& u) {
          u.position = Vec3{0.0, 1.0, 0.0};
        }),

@@ -164,7 +164,7 @@ TEST(WorldWounds, MovingReshapingAndTurningKeepsTheLedger) {
   UpdateWound slit;
   slit.wound_id = 1;
   slit.shape = PolylinePatch{{{-0.006, 0.0}, {0.0, 0.002}, {0.006, 0.0}}, 0.0021};
-  slit.normal = Vec3{0.0, 0.1, 1.0}.normalized();
+  slit.normal = Vec3{0.0, 0.07, 1.0}.normalized();
   slit.name = "slit";
   const auto applied = world->apply(slit);
   ASSERT_TRUE(applied.ok()) << applied.status().message();

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "service/lab/scene_parts.h"
 #include "service/sph/wound/wound_set.h"
 
 namespace bleedsim::sph {
@@ -18,12 +19,7 @@ inline WorldDescription plainDescription(double spacing = 0.001) {
   return description;
 }
 
-inline WoundDescription discWound(double radius, double flow) {
-  WoundDescription wound;
-  wound.shape = DiscPatch{radius};
-  wound.drive = FlowDrive{flow};
-  return wound;
-}
+using lab::discWound;
 
 inline UpdateWound driveChange(std::uint32_t id, const WoundDrive& drive) {
   UpdateWound change;
