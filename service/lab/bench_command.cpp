@@ -9,6 +9,7 @@
 #include "service/lab/bench/comparison.h"
 #include "service/lab/bench/report.h"
 #include "service/lab/bench/still_block.h"
+#include "service/lab/json_option.h"
 #include "service/lab/lab_files.h"
 #include "service/lab/progress.h"
 #include "service/scene/scene.h"
@@ -102,10 +103,10 @@ void addBenchCommand(CLI::App& app, Context& context) {
       ->capture_default_str()
       ->check(finiteIn(0.0, 1000.0))
       ->needs(scene);
-  command->add_option("--json", arguments->json, "Write JSON here; -: to stdout, in place of the tables")->type_name("FILE");
+  addJsonOption(*command, arguments->json);
   command
       ->add_option("--compare", arguments->compare,
-                   "Earlier file of --json: print how many times as fast each stage is; to stderr with --json -")
+                   "Earlier file of --json: print how many times as fast each stage is; to stderr where the JSON takes stdout")
       ->type_name("FILE");
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }
