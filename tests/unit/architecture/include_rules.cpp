@@ -32,7 +32,7 @@ const std::vector<LibraryRule>& libraryRules() {
       {"zlib", {"recording", "checkpoint", "client"}},
       {"png", {"picture"}},
       {"net/", {"transport"}},
-      {"sys/", {"checkpoint", "transport", "daemon", "recording", "client", "picture"}},
+      {"sys/", {"checkpoint", "transport", "daemon", "recording", "client", "picture", "sph"}},  // sph asks for huge pages
   };
   return kRules;
 }
