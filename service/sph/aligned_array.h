@@ -58,17 +58,20 @@ class AlignedArray {
   static constexpr std::size_t kLarge = 2 * kHugePage;
 
   static std::size_t offsetOf(unsigned lane) { return 64 * ((lane * 7) % 61); }
+  static std::size_t neededFor(std::size_t size, unsigned lane) { return offsetOf(lane) + size * sizeof(T) + kPadding; }
+  static std::size_t pageOf(std::size_t needed) { return needed < kLarge ? kPage : kHugePage; }
   static std::size_t bytesFor(std::size_t size, unsigned lane) {
-    const std::size_t bytes = offsetOf(lane) + size * sizeof(T) + kPadding;
-    const std::size_t page = bytes < kLarge - kPage ? kPage : kHugePage;
-    return (bytes + page - 1) / page * page;
+    const std::size_t needed = neededFor(size, lane);
+    const std::size_t page = pageOf(needed);
+    return (needed + page - 1) / page * page;
   }
   std::byte* allocate(std::size_t size, unsigned lane) {
     const std::size_t bytes = bytesFor(size, lane);
-    memory_ = static_cast<std::byte*>(std::aligned_alloc(bytes < kLarge ? kPage : kHugePage, bytes));
+    const std::size_t page = pageOf(neededFor(size, lane));
+    memory_ = static_cast<std::byte*>(std::aligned_alloc(page, bytes));
     if (memory_ == nullptr) throw std::bad_alloc{};
     // A wish: without huge pages it is only slower, by some 6 % with a million particles.
-    if (bytes >= kLarge) static_cast<void>(::madvise(memory_, bytes, MADV_HUGEPAGE));
+    if (page == kHugePage) static_cast<void>(::madvise(memory_, bytes, MADV_HUGEPAGE));
     data_ = reinterpret_cast<T*>(memory_ + offsetOf(lane));
     size_ = size;
     return memory_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "service/sph/effects/rheology.h"
 #include "service/sph/seeding.h"
 
 namespace bleedsim::sph {
@@ -81,7 +82,7 @@ std::vector<ModelProblem> literalProblems(const WorldDescription& d) {
                          "not in model LITERAL, because (19) has no background pressure; leave it at 0");
   }
   if (const auto& viscosity = effects.viscosity) {
-    if (!std::holds_alternative<NewtonianRheology>(viscosity->rheology)) {
+    if (viscosityThins(effects)) {
       problems.unsupported(rheologyField(*viscosity),
                            "not in model LITERAL, because the paper's mu knows no shear rate; set viscosity_pa_s");
     }
@@ -124,7 +125,7 @@ std::vector<ModelProblem> planarProblems(const WorldDescription& d) {
     if (effects.adhesion) {
       problems.unsupported("effects.adhesion", "not in a planar world, because there is no tissue to stick to; drop it");
     }
-    if (effects.viscosity && !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology)) {
+    if (viscosityThins(effects)) {
       problems.unsupported(rheologyField(*effects.viscosity),
                            "not in a planar world, because the shear rate is summed in space; set viscosity_pa_s");
     }

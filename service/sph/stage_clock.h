@@ -25,6 +25,12 @@ class StageClock {
     seconds_[static_cast<std::size_t>(first)] -= moved;
     seconds_[static_cast<std::size_t>(second)] += moved;
   }
+  /// Of all time so far, 0 to 1.
+  double part(Stage stage) const {
+    double all = 0.0;
+    for (const double seconds : seconds_) all += seconds;
+    return all > 0.0 ? seconds_[static_cast<std::size_t>(stage)] / all : 0.0;
+  }
   const std::array<double, static_cast<int>(Stage::count)>& seconds() const { return seconds_; }
 
  private:

@@ -59,9 +59,7 @@ std::string beyondTheSpline(const EffectSettings& effects) {
   if (effects.core_radius) return "core_radius";
   if (effects.repulsion) return "repulsion";
   if (effects.viscosity && effects.viscosity->solve == ViscositySolve::implicit) return "viscosity solved implicitly";
-  if (effects.viscosity && !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology)) {
-    return "viscosity that follows the shear rate";
-  }
+  if (viscosityThins(effects)) { return "viscosity that follows the shear rate"; }
   return {};
 }
 

@@ -89,7 +89,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     if (effects.core_radius) core_radius_.emplace(*effects.core_radius, description.rest_density, options.threads);
     if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, tables.sweeps.shear_rate);
     if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
-    thins_ = effects.viscosity && !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology);
+    thins_ = viscosityThins(effects);
     if (effects.platelets) clotting_.emplace(*effects.platelets, description.spacing, description.rest_density, walls_.field());
   }
   if (mayNeedImplicitViscosity(description, speed_of_sound_)) {

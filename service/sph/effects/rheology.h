@@ -63,9 +63,14 @@ Real viscosityAtRest(const ViscositySettings& settings) {
   return static_cast<Real>(settings.viscosity);
 }
 
+/// Whether viscosity depends on the shear rate.
+inline bool viscosityThins(const EffectSettings& effects) {
+  return effects.viscosity && !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology);
+}
+
 /// Whether particles' viscosity changes while the scene runs.
 inline bool viscosityChanges(const EffectSettings& effects) {
-  return effects.viscosity && (effects.platelets || !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology));
+  return effects.viscosity && (effects.platelets || viscosityThins(effects));
 }
 
 /// invalid_argument with the value and what is allowed.

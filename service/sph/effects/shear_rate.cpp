@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "service/sph/effects/rheology.h"
+
 namespace bleedsim::sph {
 
 bool shearRateNeeded(const EffectSettings& effects) {
-  const bool thins = effects.viscosity && !std::holds_alternative<NewtonianRheology>(effects.viscosity->rheology);
   const bool gated =
       effects.platelets && effects.platelets->activation_rate > 0.0 && std::isfinite(effects.platelets->shear_gate);
-  return thins || gated;
+  return viscosityThins(effects) || gated;
 }
 
 template <class Real>

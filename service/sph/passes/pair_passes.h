@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "service/sph/particles.h"
 #include "service/sph/passes/pass_table.h"
 #include "service/sph/running_code.h"
+#include "service/sph/stage_clock.h"
 
 namespace bleedsim::sph {
 
@@ -115,7 +115,7 @@ class PairPasses {
                                 int shares, Executor& executor, void (*function)(const Job&), const Job& job, double& walk_part) {
     setDummy(count);
     const int layer = grid.view().size[1] + 1;  // a row needs the densities of so many rows before and behind it
-    RowTimes times;
+    StageClock times;                           // of the first share
     executor.run(shares, [&](int share) {
       DensityJob<Real> densities = densityJob(grid, p, wall_share, count, share);
       Job walk = sweepJob(grid, p, count, share, job);
@@ -129,13 +129,13 @@ class PairPasses {
         row = grid.view().rowsWith(kChunk, row, end);
         densities.row_end = row;
         density_function_(densities);
-        if (share == 0) times.lap(0);
+        if (share == 0) times.lap(Stage::density);
         if (row - layer <= walked) continue;
         walk.row_begin = walked;
         walk.row_end = row - layer;
         function(walk);
         walked = walk.row_end;
-        if (share == 0) times.lap(1);
+        if (share == 0) times.lap(Stage::force);
       }
       overflowed_[static_cast<std::size_t>(share)] = densities.overflowed;
     });
@@ -151,9 +151,9 @@ class PairPasses {
       walk.row_begin = std::max(own, end - layer);
       walk.row_end = end;
       function(walk);
-      if (share == 0) times.lap(1);
+      if (share == 0) times.lap(Stage::force);
     });
-    walk_part = times.walkPart();
+    walk_part = times.part(Stage::force);
     return overflowed(shares);
   }
 
@@ -260,26 +260,6 @@ class PairPasses {
  private:
   /// Particles of the rows that density() and the walk take in turns.
   static constexpr std::uint32_t kChunk = 512;
-
-  /// How a share's time splits between densities (0) and the walk (1), s.
-  class RowTimes {
-   public:
-    void start() { last_ = Clock::now(); }
-    void lap(int part) {
-      const Clock::time_point now = Clock::now();
-      seconds_[static_cast<std::size_t>(part)] += std::chrono::duration<double>(now - last_).count();
-      last_ = now;
-    }
-    double walkPart() const {
-      const double both = seconds_[0] + seconds_[1];
-      return both > 0.0 ? seconds_[1] / both : 0.0;
-    }
-
-   private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point last_{};
-    std::array<double, 2> seconds_{};
-  };
 
   void setDummy(std::uint32_t count) {
     Real* dummy = record_.data() + std::size_t{count} * static_cast<std::size_t>(4 * groups_);

@@ -6,12 +6,12 @@
 #include "service/sph/tissue/signed_distance.h"
 #include "service/sph/wound/periodic_offset.h"
 #include "service/sph/wound/text.h"
+#include "service/sph/wound/throat.h"
 
 namespace bleedsim::sph {
 namespace {
 
-constexpr double kReleaseHeight = 0.5;  // spacings in front of the patch, as in Throat
-constexpr double kRounding = 1e-6;      // spacings
+constexpr double kRounding = 1e-6;  // spacings
 
 Vec3 asVector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 

@@ -53,7 +53,7 @@ Throat::Throat(std::uint32_t slot, const PatchFrame& frame, const PatchSites& pa
       area_{patch.area},
       gap_{patch.gap},
       depth_{support_radius + std::min(patch.gap, kDenseGap * spacing)},
-      release_height_{0.5 * spacing},
+      release_height_{kReleaseHeight * spacing},
       support_radius_{support_radius},
       height_per_particle_{patch.gap / static_cast<double>(patch.sites.size())},
       sparse_{patch.gap > kDenseGap * spacing * (1.0 + 1e-9)},

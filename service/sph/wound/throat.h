@@ -20,6 +20,9 @@ namespace bleedsim::sph {
 class StateReader;
 class StateWriter;
 
+/// Of the place where particles are set free, in front of the patch, in spacings.
+constexpr double kReleaseHeight = 0.5;
+
 enum class InletPhase {
   throat,    ///< z < 0: behind the patch, unseen
   emerging,  ///< 0 <= z < dx/2: emitted, still moved by the throat

@@ -85,8 +85,8 @@ struct WoundProblem {
   std::variant<Status, PatchOutside, PatchMeetsItself, BuriedPatch, WoundOverlap, SpeedExcess> what;
 };
 
-/// Every rule that a wound of the description breaks, by rising index. Numbers, and those
-/// of the tissue, are taken to be sound.
+/// Every rule that a wound of the description breaks, by rising index. Numbers, and those of the
+/// tissue, are taken to be sound.
 std::vector<WoundProblem> findWoundProblems(const WorldDescription& description, double speed_of_sound);
 
 }  // namespace bleedsim::sph

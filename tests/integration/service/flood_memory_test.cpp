@@ -25,8 +25,7 @@ TEST_F(ServiceTest, AFloodOfScenesTakesNoMemory) {
   test::ChildProcess daemon{daemonCommand("scenes")};
   Probe polite{domain(), "scenes"};
   Probe flooder{domain(), "scenes"};
-  const auto real_time = Probe::body(bleed_v1_REQUEST_PACE, [](auto& body) { body._u.pace = {bleed_v1_PACE_FACTOR, 1.0}; });
-  ASSERT_EQ(flooder.ask(real_time).code, kAccepted);
+  ASSERT_EQ(flooder.ask(Probe::pace(1.0)).code, kAccepted);
   const double before = residentMiB(daemon.pid(), "VmRSS");
   std::string text = "# " + std::string(1'000'000, 'x');
   const auto load = Probe::body(bleed_v1_REQUEST_LOAD_SCENE, [&text](auto& body) { body._u.load_scene.text = text.data(); });

@@ -85,6 +85,10 @@ class Probe {
   using Body = std::function<void(bleed_v1_RequestBody&)>;
   /// A body of that case; `fill` may set its members.
   static bleed_v1_RequestBody body(std::uint32_t kind, const Body& fill = {});
+  /// A pace of `factor` times real time.
+  static bleed_v1_RequestBody pace(double factor) {
+    return body(bleed_v1_REQUEST_PACE, [factor](auto& request) { request._u.pace = {bleed_v1_PACE_FACTOR, factor}; });
+  }
 
   /// Sends until there is an answer; every sending is the same request. Fails the test when none comes.
   bleed_v1_Reply ask(const bleed_v1_RequestBody& body);

@@ -91,10 +91,7 @@ TEST_F(ServiceTest, RefusedRequestsLeaveTheStateAsItWas) {
                   }),
       Probe::body(bleed_v1_REQUEST_WOUND_REMOVE, [](auto& body) { body._u.wound_remove.wound_id = 777; }),
       Probe::body(bleed_v1_REQUEST_WOUND_UPDATE, [](auto& body) { body._u.wound_update.wound_id = 1; }),
-      Probe::body(bleed_v1_REQUEST_PACE,
-                  [](auto& body) {
-                    body._u.pace = {bleed_v1_PACE_FACTOR, -1.0};
-                  }),
+      Probe::pace(-1.0),
       Probe::body(bleed_v1_REQUEST_OUTPUT, [](auto& body) { body._u.output.rate_hz = kNaN; }),
       Probe::body(1234)};
   const std::uint64_t after = probe.hashAfterReset(300, [&] {

@@ -13,9 +13,6 @@ using testing::HasSubstr;
 
 constexpr std::uint32_t kAccepted = bleed_v1_REPLY_ACCEPTED;
 
-bleed_v1_RequestBody paceOf(double factor) {
-  return Probe::body(bleed_v1_REQUEST_PACE, [factor](auto& body) { body._u.pace = {bleed_v1_PACE_FACTOR, factor}; });
-}
 bleed_v1_RequestBody namedWound(const char* name, double x) {
   return Probe::body(bleed_v1_REQUEST_WOUND_ADD, [&](bleed_v1_RequestBody& body) {
     bleed_v1_Wound& added = body._u.wound_add;
@@ -37,11 +34,11 @@ TEST_F(ServiceTest, AFloodOfRequestsKeepsNobodyWaiting) {
   test::ChildProcess daemon{daemonCommand("flood")};
   Probe polite{domain(), "flood"};
   Probe flooder{domain(), "flood"};
-  ASSERT_EQ(flooder.ask(paceOf(1.0)).code, kAccepted);
+  ASSERT_EQ(flooder.ask(Probe::pace(1.0)).code, kAccepted);
   std::uint64_t sent = 0;
   for (int round = 0; round < 10; ++round) {
     for (int i = 0; i < 1000; ++i) {
-      sent += flooder.send(i % 2 == 0 ? paceOf(1.0 + 1e-6 * i) : Probe::body(bleed_v1_REQUEST_PING)) ? 1 : 0;
+      sent += flooder.send(i % 2 == 0 ? Probe::pace(1.0 + 1e-6 * i) : Probe::body(bleed_v1_REQUEST_PING)) ? 1 : 0;
     }
     const bleed_v1_Reply reply = polite.ask(bleed_v1_REQUEST_RESUME);
     ASSERT_EQ(reply.code, kAccepted) << reply.reason;
@@ -113,7 +110,7 @@ TEST_F(ServiceTest, NonsenseIsRefusedAndCountedByItsSender) {
   Probe fool{domain(), "nonsense"};
   fool.matchInstruments();
   ASSERT_NE(fool.ask(99U).code, kAccepted);
-  ASSERT_NE(fool.ask(paceOf(std::numeric_limits<double>::quiet_NaN())).code, kAccepted);
+  ASSERT_NE(fool.ask(Probe::pace(std::numeric_limits<double>::quiet_NaN())).code, kAccepted);
   ASSERT_NE(fool.ask(namedWound("x", 1e300)).code, kAccepted);
   fool.sendInstrument(1, [](bleed_v1_Instrument& sample) { sample.force.x = std::numeric_limits<double>::infinity(); });
   fool.sendInstrument(2, [](bleed_v1_Instrument& sample) { sample.tip_radius_m = -1.0; });
