@@ -31,7 +31,8 @@ Real CoreRadius<Real>::update(Particles<Real>& p, const Real* density, std::uint
   return mover_.move(p, density, count, shares, executor, [&](Real rho, Real radius) {
     const Real volume = Real(1) / (Real(1) + followed(rho / rest_density_ - Real(1)));
     const Real ratio = std::min(std::max(least_ratio_, volume), most_ratio_);
-    const Real moved = radius + relaxation_ * (cubeRoot(ratio) - radius);
+    const Real wanted = ratio == Real(1) ? Real(1) : cubeRoot(ratio);  // at rest density, as most are, without the root
+    const Real moved = radius + relaxation_ * (wanted - radius);
     return std::min(std::max(smallest_, moved), largest_);
   });
 }

@@ -12,6 +12,7 @@
 #endif
 
 #include <algorithm>
+#include <hwy/cache_control.h>
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/passes/direct_search-inl.h"
@@ -80,11 +81,23 @@ class DensityPass {
       if (begin == end) continue;
       NeighborRun<Real> runs[GridView<Real>::kMaxRuns];
       const int run_count = job_.grid.template neighborRuns<kPeriodic>(row, cx, runs);
+      fetchAhead(runs, run_count);
       if (!gatherCandidates(runs, run_count, begin, end)) {
         for (std::uint32_t i = begin; i < end; ++i) sumDirectly(runs, run_count, i);
         continue;
       }
       for (std::uint32_t i = begin; i < end; i += kBatch) sweepBatch(runs, run_count, i, std::min(kBatch, end - i));
+    }
+  }
+
+  /// Asks for the places that later cells of the row will read: the processor does not guess nine or more streams at once.
+  HWY_INLINE void fetchAhead(const NeighborRun<Real>* runs, int run_count) const {
+    constexpr std::uint32_t kAhead = 32;  // particles, some four cells
+    for (int k = 0; k < run_count; ++k) {
+      const std::uint32_t j = std::min(runs[k].end + kAhead, job_.count - 1);
+      hwy::Prefetch(job_.x + j);
+      hwy::Prefetch(job_.y + j);
+      hwy::Prefetch(job_.z + j);
     }
   }
 

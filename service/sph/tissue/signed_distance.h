@@ -37,6 +37,11 @@ class PlaneSurface {
   }
 
   Real value(Real x, Real y, Real z) const { return normal_[0] * x + normal_[1] * y + normal_[2] * z - offset_; }
+  /// The least value in the box of these half edges about a point.
+  Real leastAbout(const std::array<Real, 3>& center, const std::array<Real, 3>& half) const {
+    return value(center[0], center[1], center[2]) -
+           (std::abs(normal_[0]) * half[0] + std::abs(normal_[1]) * half[1] + std::abs(normal_[2]) * half[2]);
+  }
   const std::array<Real, 3>& normal() const { return normal_; }
 
  private:
@@ -63,6 +68,14 @@ class ObstacleSurface {
     const Real along_x = std::max(lower_[0] - x, x - upper_[0]);
     const Real along_y = std::max(lower_[1] - y, y - upper_[1]);
     const Real along_z = std::max(lower_[2] - z, z - upper_[2]);
+    return std::max(along_x, std::max(along_y, along_z));
+  }
+
+  /// A bound below faceDistance() in the box of these half edges about a point: it is 1-Lipschitz along each axis.
+  Real leastAbout(const std::array<Real, 3>& center, const std::array<Real, 3>& half) const {
+    const Real along_x = std::max(lower_[0] - center[0], center[0] - upper_[0]) - half[0];
+    const Real along_y = std::max(lower_[1] - center[1], center[1] - upper_[1]) - half[1];
+    const Real along_z = std::max(lower_[2] - center[2], center[2] - upper_[2]) - half[2];
     return std::max(along_x, std::max(along_y, along_z));
   }
 
@@ -123,6 +136,18 @@ class BowlSurface {
     std::array<Real, 3> sphere_normal{0, 0, 1};  ///< towards the centre
     Real center_distance = 0;                    ///< m
   };
+
+  /// Whether the box of these half edges about a point comes nearer than `reach` to the plane and to the sphere; false for what
+  /// is no number.
+  bool nears(const std::array<Real, 3>& center, const std::array<Real, 3>& half, Real reach) const {
+    if (!(center[2] - half[2] - rim_ < reach)) return false;
+    const Real dx = std::abs(center_[0] - center[0]) + half[0];
+    const Real dy = std::abs(center_[1] - center[1]) + half[1];
+    const Real dz = std::abs(center_[2] - center[2]) + half[2];
+    const Real inside = radius_ - reach;  // so far from the centre nothing is near
+    const Real square = dx * dx + dy * dy + dz * dz;
+    return inside < Real(0) ? square >= Real(0) : square > inside * inside;
+  }
 
   Parts parts(Real x, Real y, Real z) const {
     const Real dx = center_[0] - x;

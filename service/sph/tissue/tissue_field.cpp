@@ -152,24 +152,33 @@ void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Re
 // d asin(c)/dc = 1/sqrt(1 - c^2) makes grad w a unit vector across n, over r.
 template <class Real>
 void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, const Own& own, WallTerms<Real>& terms) const {
+  if (!bowl.surface.nears({x, y, z}, {}, reach_)) return;
   const auto part = bowl.surface.parts(x, y, z);
-  if (!(part.plane < reach_ && part.sphere < reach_)) return;
-  const ShareTables<Real>& table = *plane_table_;
-  const Real full = table.full(own);
-  const Share<Real> plane = table.at(part.plane, own);
-  const Share<Real> hollow = bowl.table.at(part.sphere, own);
   const std::array<Real, 3>& n = part.sphere_normal;
-  const SignedDistance<Real> nearest = bowl.surface.at(x, y, z, part);
   WallTerm<Real> term;
-  term.distance = nearest.value;
-  term.normal = nearest.normal;
-  if (part.plane <= -reach_) {
+  term.grip = bowl.grip;
+  if (part.plane <= -reach_) {  // deep under the rim, where most touch: the hollow's table knows all, and it is the nearest
+    const Share<Real> hollow = bowl.table.at(part.sphere, own);
+    term.distance = part.sphere;
+    term.normal = n;
     term.share = hollow.share;
     addScaled(term.gradient, hollow.slope, n);
-  } else if (part.sphere <= -reach_) {
+    term.friction = frictionOf(hollow, part.sphere) * bowl.grip;
+    terms.add(term);
+    return;
+  }
+  const ShareTables<Real>& table = *plane_table_;
+  const SignedDistance<Real> nearest = bowl.surface.at(x, y, z, part);
+  term.distance = nearest.value;
+  term.normal = nearest.normal;
+  if (part.sphere <= -reach_) {
+    const Share<Real> plane = table.at(part.plane, own);
     term.share = plane.share;
     term.gradient[2] = plane.slope;
   } else {
+    const Share<Real> plane = table.at(part.plane, own);
+    const Share<Real> hollow = bowl.table.at(part.sphere, own);
+    const Real full = table.full(own);
     const Real c = n[2];
     const Overlap<Real> both = overlapOf(plane.share / full, hollow.share / full, c);
     term.share = full * both.value;
@@ -184,28 +193,33 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, const 
     }
   }
   term.friction = scaledFriction(term.share, nearest.value, own) * bowl.grip;
-  term.grip = bowl.grip;
   terms.add(term);
 }
 
 template <class Real>
-bool TissueField<Real>::touches(Real x, Real y, Real z) const {
+bool TissueField<Real>::mayTouch(const std::array<Real, 3>& lower, const std::array<Real, 3>& upper) const {
+  std::array<Real, 3> center{};
+  std::array<Real, 3> half{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    center[a] = Real(0.5) * (lower[a] + upper[a]);
+    half[a] = upper[a] - center[a];
+    if (!(half[a] >= Real(0))) return true;
+  }
+  const Real reach = Real(1.001) * reach_;  // more than rounding, so that no touching point is missed
   for (const Plane& plane : planes_) {
-    if (plane.surface.value(x, y, z) < reach_) return true;
+    if (plane.surface.leastAbout(center, half) < reach) return true;
   }
   for (const Obstacle& obstacle : obstacles_) {
-    if (obstacle.surface.faceDistance(x, y, z) < reach_) return true;
+    if (obstacle.surface.leastAbout(center, half) < reach) return true;
   }
   for (const Bowl& bowl : bowls_) {
-    const auto part = bowl.surface.parts(x, y, z);
-    if (part.plane < reach_ && part.sphere < reach_) return true;
+    if (bowl.surface.nears(center, half, reach)) return true;
   }
   return false;
 }
 
 template <class Real>
 bool TissueField<Real>::sample(Real x, Real y, Real z, WallSample<Real>& out, Real radius) const {
-  if (!touches(x, y, z)) return false;  // before the list of terms is made: most particles touch nothing
   WallTerms<Real> terms;
   const Own own = radii_.at(radius);
   for (const Plane& plane : planes_) {
@@ -216,6 +230,7 @@ bool TissueField<Real>::sample(Real x, Real y, Real z, WallSample<Real>& out, Re
     if (obstacle.surface.faceDistance(x, y, z) < reach_) addObstacle(obstacle, x, y, z, own, terms);
   }
   for (const Bowl& bowl : bowls_) addBowl(bowl, x, y, z, own, terms);
+  if (terms.size() == 0) return false;
 
   const CombinedShare<Real> combined = combineShares(terms);
   out = {};

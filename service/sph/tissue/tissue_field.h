@@ -48,6 +48,10 @@ class TissueField {
   /// inside tissue are. `radius`: the particle's own support radius over h.
   bool sample(Real x, Real y, Real z, WallSample<Real>& out, Real radius = Real(1)) const;
 
+  /// Whether sample() may be true in the box between two corners; false only where it is false all over the box. For one corner
+  /// that is no number: true.
+  bool mayTouch(const std::array<Real, 3>& lower, const std::array<Real, 3>& upper) const;
+
   /// L of a plane at phi = d, without edges and curvature; there must be tissue.
   Real planeShareAt(Real d) const { return plane_table_->at(d).share; }
 
@@ -77,7 +81,6 @@ class TissueField {
     ShareTables<Real> table;  ///< of the hollow
   };
 
-  bool touches(Real x, Real y, Real z) const;
   using Own = RadiusPlace<Real>;
   void addPlane(const Plane& plane, Real distance, const Own& own, WallTerms<Real>& terms) const;
   void addObstacle(const Obstacle& obstacle, Real x, Real y, Real z, const Own& own, WallTerms<Real>& terms) const;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "service/sph/tissue/share_rule.h"
 
@@ -30,12 +31,13 @@ class WallTerms {
  public:
   static constexpr int kMost = 8;
 
+  WallTerms() {}  // leaves the terms unmade
   int size() const { return size_; }
   const WallTerm<Real>& operator[](int k) const { return terms_[k]; }
 
   void add(const WallTerm<Real>& term) {
     if (size_ < kMost) {
-      terms_[size_++] = term;
+      std::construct_at(&terms_[size_++], term);
       return;
     }
     int furthest = 0;
@@ -56,7 +58,9 @@ class WallTerms {
 
  private:
   int size_ = 0;
-  std::array<WallTerm<Real>, kMost> terms_;
+  union {  // only the first `size_` exist: to write them all for every particle would cost more than one wall's term
+    std::array<WallTerm<Real>, kMost> terms_;
+  };
 };
 
 template <class Real>

@@ -47,30 +47,23 @@ class WallEffects {
   /// The tissue's share of density per particle; null without tissue.
   const Real* share() const { return share_.empty() ? nullptr : share_.data(); }
 
-  /// Particles of a throat see no tissue: they stand for it.
+  /// Particles of a throat see no tissue: they stand for it. Cells that lie deep in the blood are passed over.
   void sample(const CellGrid<Real>& grid, const Particles<Real>& p, const WoundSet& wounds, std::uint32_t count, int shares,
               Executor& executor) {
     if (field_.empty()) return;
     executor.run(shares, [&](int share) {
-      Touching* list = touching_[static_cast<std::size_t>(share)].data();
+      const GridView<Real>& view = grid.view();
+      Touching* const list = touching_[static_cast<std::size_t>(share)].data();
       std::uint32_t length = 0;
-      const std::uint32_t end = shareEnd(grid, share + 1, shares, count);
-      for (std::uint32_t i = shareEnd(grid, share, shares, count); i < end; ++i) {
-        share_[i] = Real(0);
-        if (p.driver[i] != 0) continue;
-        Touching& entry = list[length];
-        const Real x = p.x[i] * constants_.h;
-        const Real y = p.y[i] * constants_.h;
-        const Real z = p.z[i] * constants_.h;
-        if (!field_.sample(x, y, z, entry.wall, p.radius.empty() ? Real(1) : p.radius[i])) continue;
-        entry.closed = Real(1);
-        if (!wounds.empty()) {
-          entry.closed -= static_cast<Real>(wounds.openFraction(Eigen::Matrix<Real, 3, 1>{x, y, z}.template cast<double>()));
-          closeBy(entry.closed, entry.wall);
+      const int end = grid.firstRow(share + 1, shares, count);
+      for (int row = grid.firstRow(share, shares, count); row < end; ++row) {
+        if (view.rowBegin(row) == view.rowEnd(row)) continue;
+        for (int x = 1; x < view.size[0] - 1; ++x) {
+          const std::size_t cell = view.cell(row, x);
+          if (view.start[cell] != view.start[cell + 1]) {
+            length += sampleCell(p, wounds, view.start[cell], view.start[cell + 1], list + length);
+          }
         }
-        entry.particle = i;
-        share_[i] = entry.wall.share;
-        ++length;
       }
       counts_[static_cast<std::size_t>(share)].touching = length;
     });
@@ -126,8 +119,42 @@ class WallEffects {
     std::uint64_t projected = 0;
   };
 
-  static std::uint32_t shareEnd(const CellGrid<Real>& grid, int share, int shares, std::uint32_t count) {
-    return grid.view().rowBegin(grid.firstRow(share, shares, count));
+  /// Of the particles from `begin` to `end`, one cell's; returns how many touch.
+  std::uint32_t sampleCell(const Particles<Real>& p, const WoundSet& wounds, std::uint32_t begin, std::uint32_t end,
+                           Touching* list) {
+    std::fill(share_.data() + begin, share_.data() + end, Real(0));
+    std::array<Real, 3> lower{p.x[begin], p.y[begin], p.z[begin]};
+    std::array<Real, 3> upper = lower;
+    for (std::uint32_t i = begin + 1; i < end; ++i) {
+      lower = {std::min(lower[0], p.x[i]), std::min(lower[1], p.y[i]), std::min(lower[2], p.z[i])};
+      upper = {std::max(upper[0], p.x[i]), std::max(upper[1], p.y[i]), std::max(upper[2], p.z[i])};
+    }
+    for (std::size_t a = 0; a < 3; ++a) {
+      lower[a] *= constants_.h;
+      upper[a] *= constants_.h;
+    }
+    if (!field_.mayTouch(lower, upper)) return 0;
+    const bool near_wound = wounds.mayOpen(asVec3(lower), asVec3(upper));
+    std::uint32_t length = 0;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      if (p.driver[i] != 0) continue;
+      const std::array<Real, 3> x{p.x[i] * constants_.h, p.y[i] * constants_.h, p.z[i] * constants_.h};
+      Touching& entry = list[length];
+      if (!field_.sample(x[0], x[1], x[2], entry.wall, p.radius.empty() ? Real(1) : p.radius[i])) continue;
+      entry.closed = Real(1);
+      if (near_wound) {
+        entry.closed -= static_cast<Real>(wounds.openFraction(asVec3(x)));
+        closeBy(entry.closed, entry.wall);
+      }
+      entry.particle = i;
+      share_[i] = entry.wall.share;
+      ++length;
+    }
+    return length;
+  }
+
+  static Vec3 asVec3(const std::array<Real, 3>& v) {
+    return Eigen::Map<const Eigen::Matrix<Real, 3, 1>>{v.data()}.template cast<double>();
   }
 
   static void closeBy(Real closed, WallSample<Real>& wall) {

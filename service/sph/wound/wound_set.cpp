@@ -36,7 +36,7 @@ WoundSet::WoundSet(const WorldDescription& description, double speed_of_sound)
       wound_of_slot_(max_wounds_ + 1, 0) {
   wounds_.reserve(max_wounds_);
   states_.reserve(max_wounds_);
-  reach_squared_.reserve(max_wounds_);
+  reach_.reserve(max_wounds_);
 }
 
 Result<WoundSet::Addition> WoundSet::planAddition(const WoundDescription& wound) const {
@@ -134,12 +134,23 @@ InletState WoundSet::kinematics(std::uint32_t tag) const {
   return state;
 }
 
+bool WoundSet::mayOpen(const Vec3& lower, const Vec3& upper) const {
+  const Vec3 center = 0.5 * (lower + upper);
+  const double radius = (upper - center).norm();
+  for (std::size_t i = 0; i < wounds_.size(); ++i) {
+    const Vec3 offset = nearestOffset(rules_.domain(), wounds_[i].throat.frame().origin, center);
+    const double reach = reach_[i] + radius;
+    if (reach_[i] > 0.0 && offset.squaredNorm() < reach * reach) return true;
+  }
+  return false;
+}
+
 double WoundSet::openFraction(const Vec3& position) const {
   double open = 0.0;
   for (std::size_t i = 0; i < wounds_.size(); ++i) {
     const PatchFrame& frame = wounds_[i].throat.frame();
     const Vec3 offset = nearestOffset(rules_.domain(), frame.origin, position);
-    if (offset.squaredNorm() < reach_squared_[i]) open += wounds_[i].throat.openFraction(frame.toLocal(offset));
+    if (offset.squaredNorm() < reach_[i] * reach_[i]) open += wounds_[i].throat.openFraction(frame.toLocal(offset));
   }
   return std::min(1.0, open);
 }
@@ -274,8 +285,8 @@ void WoundSet::withdrawThroat(std::size_t index, const WithdrawThroat& withdraw)
 }
 
 void WoundSet::refreshReach() {
-  reach_squared_.clear();
-  for (const Wound& wound : wounds_) reach_squared_.push_back(wound.throat.sparse() ? 0.0 : std::pow(wound.throat.reach(), 2));
+  reach_.clear();
+  for (const Wound& wound : wounds_) reach_.push_back(wound.throat.sparse() ? 0.0 : wound.throat.reach());
 }
 
 }  // namespace bleedsim::sph

@@ -79,6 +79,9 @@ class WoundSet {
   /// advance() has filled the throats. Cheap far from wounds.
   double openFraction(const Vec3& position) const;
 
+  /// Whether openFraction() may differ from 0 in the box between two corners, m. Cheap.
+  bool mayOpen(const Vec3& lower, const Vec3& upper) const;
+
   bool empty() const { return wounds_.empty(); }
   /// The existing wounds, by rising id.
   std::span<const WoundState> states() const { return states_; }
@@ -148,7 +151,7 @@ class WoundSet {
   std::vector<Wound> wounds_;                 // by rising id
   std::vector<WoundState> states_;            // parallel to wounds_
   std::vector<std::uint16_t> wound_of_slot_;  // index into wounds_
-  std::vector<double> reach_squared_;         // parallel to wounds_; 0 where the tissue stays closed
+  std::vector<double> reach_;                 // m, parallel to wounds_; 0 where the tissue stays closed
   std::uint64_t emitted_ = 0;
   std::uint64_t refused_ = 0;
   std::uint64_t withdrawn_ = 0;

@@ -56,6 +56,41 @@ TEST(TissueField, planeGivesItsTable) {
   EXPECT_TRUE(field.sample(0, 0, -10 * kReach, wall)) << "inside the tissue";
 }
 
+// Whole boxes are passed over by mayTouch(): no point of such a box may touch. And it is of use: boxes as small as a cell that
+// lie deep in the blood, or beyond a bowl's rim, are passed over.
+TEST(TissueField, boxesThatAreOutOfReachHoldNoTouchingPoint) {
+  PointStream stream;
+  for (const TissueShape& shape : {TissueShape{wallAt(70.0)}, TissueShape{kBowl}, TissueShape{kBlock}}) {
+    const auto field = fieldOf<float>({tissueOf(shape)}, kRatio);
+    int out_of_reach = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const Vec3 lower = stream.nextPoint(-14 * kSpacing, 14 * kSpacing);
+      const Vec3 upper = lower + stream.nextPoint(0.0, 2 * kReach);
+      const std::array<float, 3> from{float(lower.x()), float(lower.y()), float(lower.z())};
+      const std::array<float, 3> to{float(upper.x()), float(upper.y()), float(upper.z())};
+      if (field.mayTouch(from, to)) continue;
+      ++out_of_reach;
+      WallSample<float> wall;
+      for (int corner = 0; corner < 8; ++corner) {
+        EXPECT_FALSE(field.sample((corner & 1 ? to : from)[0], (corner & 2 ? to : from)[1], (corner & 4 ? to : from)[2], wall));
+      }
+      for (int inner = 0; inner < 8; ++inner) {
+        const auto within = [&](Eigen::Index a) { return float(stream.next(lower[a], upper[a])); };
+        const float x = within(0);
+        const float y = within(1);
+        EXPECT_FALSE(field.sample(x, y, within(2), wall));
+      }
+    }
+    EXPECT_GT(out_of_reach, 50);
+  }
+  const auto field = fieldOf<float>({tissueOf(kFloor)}, kRatio);
+  const auto reach = static_cast<float>(kReach);
+  EXPECT_TRUE(field.mayTouch({0, 0, 0.9f * reach}, {1, 1, 1}));
+  EXPECT_FALSE(field.mayTouch({0, 0, 1.01f * reach}, {1, 1, 1}));
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(field.mayTouch({nan, 0, 1}, {nan, 1, 2})) << "its particles are asked one by one";
+}
+
 // grad L is the derivative of L, whatever meets: perpendicular faces, wedges, a bowl's hollow and rim, a block's edges.
 TEST(TissueField, gradientIsTheDerivativeOfTheShare) {
   BoxShape box{.upper = Vec3::Constant(8 * kSpacing)};

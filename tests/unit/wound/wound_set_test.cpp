@@ -183,5 +183,33 @@ TEST(WoundSet, TheLargestSlotWorks) {
   EXPECT_GE(world.tagged.size(), 1u);
 }
 
+// What is not passed over by the box of a cell must open as if it had been asked point by point.
+TEST(WoundSet, OpensNothingInABoxThatMayNotOpen) {
+  ThroatWorld world{plainDescription()};
+  WoundDescription wound = discWound(0.004, 8e-6);
+  wound.position = {0.01, 0.0, 0.0};
+  ASSERT_TRUE(world.set.add(wound).ok());
+  world.step(1e-4);
+  int open = 0;
+  int closed = 0;
+  for (double x = -0.01; x < 0.03; x += 7e-4) {
+    for (double z = -0.01; z < 0.01; z += 7e-4) {
+      const Vec3 point{x, 0.001, z};
+      const Vec3 corner{0.0012, 0.002, 0.0005};
+      if (world.set.mayOpen(point - corner, point + corner)) {
+        ++open;
+        continue;
+      }
+      ++closed;
+      for (const double part : {-1.0, -0.4, 0.0, 0.7, 1.0}) EXPECT_EQ(world.set.openFraction(point + part * corner), 0.0);
+    }
+  }
+  EXPECT_GT(open, 20);
+  EXPECT_GT(closed, 100);
+  EXPECT_TRUE(world.set.mayOpen(wound.position, wound.position));
+  ASSERT_TRUE(world.set.remove(1, [](const Throat&) {}).ok());
+  EXPECT_FALSE(world.set.mayOpen(wound.position, wound.position));
+}
+
 }  // namespace
 }  // namespace bleedsim::sph
