@@ -14,10 +14,25 @@ constexpr double kEffectsPart = 0.1;  // of the time
 
 double wallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// What a run of a case took, and at which knobs.
-struct Known {
-  Knobs knobs;
-  double seconds = 0.0;
+/// What runs of the cases took, and at which knobs.
+class CostTable {
+ public:
+  /// Of one run, s; 0 of a case that did not run yet.
+  double estimate(const Setting& setting) const {
+    const auto found = known_.find(setting.which->name);
+    if (found == known_.end()) return 0.0;
+    return estimateSeconds(*setting.which, found->second.knobs, found->second.seconds, setting.knobs);
+  }
+  void add(const Setting& setting, double seconds) {
+    if (setting.knob == "spacing" || setting.knob == "base") known_[setting.which->name] = {setting.knobs, seconds};
+  }
+
+ private:
+  struct Known {
+    Knobs knobs;
+    double seconds = 0.0;
+  };
+  std::map<std::string_view, Known> known_;
 };
 
 /// A body of blood with every effect, for the bar of what each costs.
@@ -47,13 +62,14 @@ Result<Measurement> measure(const Setting& setting, int runs, const std::functio
   for (int k = 0; k < runs && (k == 0 || has_time()); ++k) {
     const auto result = setting.which->run(setting.knobs);
     if (!result) return result.status();
-    const Figure* figure = result->find(setting.which->error_figure);
-    if (figure == nullptr) return Status{StatusCode::internal, fmt::format("no figure '{}'", setting.which->error_figure)};
     const RunCost& cost = result->cost;
     if (!(cost.simulated > 0.0)) return Status{StatusCode::internal, "too short to be timed"};
-    measurement.value = figure->value;
-    measurement.reference = figure->reference;
-    measurement.error = figure->error;
+    measurement.figures.clear();
+    for (const std::string_view name : errorFiguresOf(*setting.which)) {
+      const Figure* figure = result->find(name);
+      if (figure == nullptr) return Status{StatusCode::internal, fmt::format("no figure '{}'", name)};
+      measurement.figures.push_back(*figure);
+    }
     measurement.particles = cost.particles;
     measurement.steps = cost.steps;
     cpu.push_back(cost.cpu / cost.simulated);
@@ -65,6 +81,31 @@ Result<Measurement> measure(const Setting& setting, int runs, const std::functio
   measurement.wall = spreadOf(wall);
   measurement.microseconds = spreadOf(microseconds);
   return measurement;
+}
+
+/// `runs` runs or, where they do not fit, one. What comes of them goes to the results.
+void measureWithin(const Setting& setting, int runs, TimeBudget& budget, CostTable& known, AccuracyResults& results) {
+  const double estimate = known.estimate(setting);
+  if (!budget.fits(estimate) || !(budget.left() > 0.0)) {
+    results.left_out.push_back(
+        {setting, fmt::format("a run needs about {:.0f} s, {:.0f} s were left", estimate, std::max(0.0, budget.left()))});
+    return;
+  }
+  const double begin = wallSeconds();
+  double one_run = 0.0;
+  auto measured = measure(setting, budget.fits(runs * estimate) ? runs : 1, [&] {
+    const double now = wallSeconds() - begin;
+    one_run = one_run > 0.0 ? one_run : now;
+    return now + one_run <= budget.left();
+  });
+  const double took = wallSeconds() - begin;
+  budget.spend(took);
+  if (!measured) {
+    results.left_out.push_back({setting, measured.status().message()});
+    return;
+  }
+  known.add(setting, took / measured->runs);
+  results.measurements.push_back(std::move(*measured));
 }
 
 /// The extreme measurement of a knob of one case by `key`; null without one.
@@ -88,6 +129,29 @@ Spread spreadOf(std::vector<double> values) {
   return {median, values.front(), values.back()};
 }
 
+const Figure* Measurement::find(std::string_view figure) const {
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& one) { return one.name == figure; });
+  return found == figures.end() ? nullptr : &*found;
+}
+
+std::vector<std::string_view> errorFiguresOf(const ValidationCase& which) {
+  std::vector<std::string_view> names;
+  for (const std::string_view name : which.error_figures) {
+    if (!name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
+std::vector<const ValidationCase*> casesIn(const AccuracyResults& results) {
+  std::vector<const ValidationCase*> cases;
+  for (const ValidationCase& one : validationCases()) {
+    const bool measured = std::any_of(results.measurements.begin(), results.measurements.end(),
+                                      [&](const Measurement& measurement) { return measurement.setting.which == &one; });
+    if (measured) cases.push_back(&one);
+  }
+  return cases;
+}
+
 AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::function<void(double)>& progress) {
   AccuracyResults results;
   results.machine = thisMachine();
@@ -95,35 +159,16 @@ AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::funct
   const double start = wallSeconds();
   const double whole = 60.0 * options.minutes;
   const double for_effects = options.effects ? kEffectsPart * whole : 0.0;
+  CostTable known;
   TimeBudget budget{whole - for_effects};
-  std::map<std::string_view, Known> known;
-  for (const Setting& setting : settingsOf(options.cases, options.knobs)) {
-    const auto before = known.find(setting.which->name);
-    const bool first = before == known.end();
-    const double estimate =
-        first ? 0.0 : options.runs * estimateSeconds(*setting.which, before->second.knobs, before->second.seconds, setting.knobs);
-    if (!budget.fits(estimate) || !(budget.left() > 0.0)) {
-      results.left_out.push_back(
-          {setting, fmt::format("needs about {:.0f} s, {:.0f} s were left", estimate, std::max(0.0, budget.left()))});
-      continue;
+  std::vector<Setting> settings = settingsOf(options.cases, options.knobs);
+  for (auto round = settings.begin(); round != settings.end();) {
+    const auto end = std::find_if(round, settings.end(), [&](const Setting& one) { return one.round != round->round; });
+    std::stable_sort(round, end, [&](const Setting& a, const Setting& b) { return known.estimate(a) < known.estimate(b); });
+    for (; round != end; ++round) {
+      measureWithin(*round, options.runs, budget, known, results);
+      progress(std::min(1.0, (wallSeconds() - start) / whole));
     }
-    const double begin = wallSeconds();
-    double one_run = 0.0;
-    auto measured = measure(setting, options.runs, [&] {
-      const double now = wallSeconds() - begin;
-      one_run = one_run > 0.0 ? one_run : now;
-      return now + one_run <= budget.left();
-    });
-    const double took = wallSeconds() - begin;
-    budget.spend(took);
-    if (measured) {
-      if (setting.knob == "spacing" || setting.knob == "base")
-        known[setting.which->name] = {setting.knobs, took / measured->runs};
-      results.measurements.push_back(std::move(*measured));
-    } else {
-      results.left_out.push_back({setting, measured.status().message()});
-    }
-    progress(std::min(1.0, (wallSeconds() - start) / whole));
   }
   if (options.effects) {
     const CostOptions costs{.particles = 4000, .seconds = std::max(1.0, for_effects)};
@@ -163,21 +208,22 @@ std::optional<double> convergenceOrder(const std::vector<double>& x, const std::
   return -(count * sum_xe - sum_x * sum_e) / spread;
 }
 
-SeparatedErrors separate(const std::vector<Measurement>& measurements, const ValidationCase& which) {
+SeparatedErrors separate(const std::vector<Measurement>& measurements, const ValidationCase& which, std::string_view figure) {
   std::vector<const Measurement*> own;
   const Measurement* base = nullptr;
   for (const Measurement& one : measurements) {
-    if (one.setting.which != &which) continue;
+    if (one.setting.which != &which || one.find(figure) == nullptr) continue;
     own.push_back(&one);
     if (one.setting.knob == "base") base = &one;
   }
   SeparatedErrors errors;
   if (base == nullptr) return errors;
-  errors.total = base->error;
-  const double scale = base->reference ? std::abs(*base->reference) : 1.0;
+  const Figure& at_base = *base->find(figure);
+  errors.total = at_base.error;
+  const double scale = at_base.reference ? std::abs(*at_base.reference) : 1.0;
   const auto change = [&](const Measurement* one) -> std::optional<double> {
     if (one == nullptr) return std::nullopt;
-    return std::abs(one->value - base->value) / scale;
+    return std::abs(one->find(figure)->value - at_base.value) / scale;
   };
   const Measurement* finest = furthest(own, "spacing", [](const Knobs& knobs) { return double(knobs.across); });
   if (finest != nullptr && finest->setting.knobs.across > base->setting.knobs.across) errors.spacing = change(finest);
@@ -191,7 +237,7 @@ SeparatedErrors separate(const std::vector<Measurement>& measurements, const Val
   for (const Measurement* one : own) {
     if (one->setting.knob != "spacing" && one->setting.knob != "base") continue;
     across.push_back(one->setting.knobs.across);
-    error.push_back(one->error);
+    error.push_back(one->find(figure)->error);
   }
   if (across.size() >= 3) errors.spacing_order = convergenceOrder(across, error);
   return errors;
