@@ -138,12 +138,13 @@ std::string effectTable(const EffectCosts& costs) {
 
 /// A line for each case: what of it was not measured, and why.
 std::string leftOutList(const AccuracyResults& results) {
-  std::string text = fmt::format("\nLeft out of the {} minutes:\n\n", results.minutes);
+  std::string text = fmt::format("\nLeft out of the {} minutes, with what a run would have taken:\n\n", results.minutes);
   for (const ValidationCase& which : validationCases()) {
     std::string line;
     for (const LeftOut& one : results.left_out) {
       if (one.setting.which == &which)
-        line += fmt::format("{}{} ({})", line.empty() ? "" : "; ", columnName(one.setting), one.reason);
+        line += fmt::format("{}{} ({})", line.empty() ? "" : ", ", columnName(one.setting),
+                            one.needs ? fmt::format("{:.2g} s", *one.needs) : one.reason);
     }
     if (!line.empty()) text += fmt::format("- `{}`: {}\n", which.name, line);
   }

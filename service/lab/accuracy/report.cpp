@@ -85,6 +85,7 @@ nlohmann::json toJson(const AccuracyResults& results) {
   for (const LeftOut& one : results.left_out) {
     nlohmann::json row = toJson(one.setting);
     row["reason"] = one.reason;
+    if (one.needs) row["needs_s"] = *one.needs;
     left_out.push_back(std::move(row));
   }
   nlohmann::json json{{"machine", toJson(results.machine)},

@@ -52,60 +52,56 @@ sph::WorldDescription everyEffect() {
   return scene;
 }
 
-/// The same numbers in every run, so only the first one's figure is kept; the times differ.
-Result<Measurement> measure(const Setting& setting, int runs, const std::function<bool()>& has_time) {
-  Measurement measurement;
-  measurement.setting = setting;
-  std::vector<double> cpu;
-  std::vector<double> wall;
-  std::vector<double> microseconds;
-  for (int k = 0; k < runs && (k == 0 || has_time()); ++k) {
+/// A measurement with what each run took.
+class Repeated {
+ public:
+  explicit Repeated(const Setting& setting) { measurement_.setting = setting; }
+
+  const Setting& setting() const { return measurement_.setting; }
+
+  /// One run more. The figures are the same in every run; the times differ.
+  Status run() {
+    const Setting& setting = measurement_.setting;
     const auto result = setting.which->run(setting.knobs);
     if (!result) return result.status();
-    const RunCost& cost = result->cost;
-    if (!(cost.simulated > 0.0)) return Status{StatusCode::internal, "too short to be timed"};
-    measurement.figures.clear();
+    measurement_.figures.clear();
     for (const std::string_view name : errorFiguresOf(*setting.which)) {
       const Figure* figure = result->find(name);
-      if (figure == nullptr) return Status{StatusCode::internal, fmt::format("no figure '{}'", name)};
-      measurement.figures.push_back(*figure);
+      if (figure == nullptr) return {StatusCode::internal, fmt::format("no figure '{}'", name)};
+      measurement_.figures.push_back(*figure);
     }
-    measurement.particles = cost.particles;
-    measurement.steps = cost.steps;
-    cpu.push_back(cost.cpu / cost.simulated);
-    wall.push_back(cost.wall / cost.simulated);
-    microseconds.push_back(cost.microseconds());
-    ++measurement.runs;
+    const RunCost& cost = result->cost;
+    if (!(cost.simulated > 0.0)) return {StatusCode::internal, "too short to be timed"};
+    measurement_.particles = cost.particles;
+    measurement_.steps = cost.steps;
+    ++measurement_.runs;
+    cpu_.push_back(cost.cpu / cost.simulated);
+    wall_.push_back(cost.wall / cost.simulated);
+    microseconds_.push_back(cost.microseconds());
+    return {};
   }
-  measurement.cpu = spreadOf(cpu);
-  measurement.wall = spreadOf(wall);
-  measurement.microseconds = spreadOf(microseconds);
-  return measurement;
-}
 
-/// `runs` runs or, where they do not fit, one. What comes of them goes to the results.
-void measureWithin(const Setting& setting, int runs, TimeBudget& budget, CostTable& known, AccuracyResults& results) {
-  const double estimate = known.estimate(setting);
-  if (!budget.fits(estimate) || !(budget.left() > 0.0)) {
-    results.left_out.push_back(
-        {setting, fmt::format("a run needs about {:.0f} s, {:.0f} s were left", estimate, std::max(0.0, budget.left()))});
-    return;
+  Measurement measurement() const {
+    Measurement whole = measurement_;
+    whole.cpu = spreadOf(cpu_);
+    whole.wall = spreadOf(wall_);
+    whole.microseconds = spreadOf(microseconds_);
+    return whole;
   }
+
+ private:
+  Measurement measurement_;
+  std::vector<double> cpu_, wall_, microseconds_;
+};
+
+/// A run whose time is taken from the budget.
+Status runWithin(Repeated& repeated, TimeBudget& budget, CostTable& known) {
   const double begin = wallSeconds();
-  double one_run = 0.0;
-  auto measured = measure(setting, budget.fits(runs * estimate) ? runs : 1, [&] {
-    const double now = wallSeconds() - begin;
-    one_run = one_run > 0.0 ? one_run : now;
-    return now + one_run <= budget.left();
-  });
+  const Status status = repeated.run();
   const double took = wallSeconds() - begin;
   budget.spend(took);
-  if (!measured) {
-    results.left_out.push_back({setting, measured.status().message()});
-    return;
-  }
-  known.add(setting, took / measured->runs);
-  results.measurements.push_back(std::move(*measured));
+  if (status.ok()) known.add(repeated.setting(), took);
+  return status;
 }
 
 /// The extreme measurement of a knob of one case by `key`; null without one.
@@ -162,14 +158,35 @@ AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::funct
   CostTable known;
   TimeBudget budget{whole - for_effects};
   std::vector<Setting> settings = settingsOf(options.cases, options.knobs);
+  std::vector<Repeated> all;
+  const auto fits = [&](double needs) { return budget.fits(needs) && budget.left() > 0.0; };
   for (auto round = settings.begin(); round != settings.end();) {
     const auto end = std::find_if(round, settings.end(), [&](const Setting& one) { return one.round != round->round; });
     std::stable_sort(round, end, [&](const Setting& a, const Setting& b) { return known.estimate(a) < known.estimate(b); });
     for (; round != end; ++round) {
-      measureWithin(*round, options.runs, budget, known, results);
+      const double needs = known.estimate(*round);
+      if (!fits(needs)) {
+        results.left_out.push_back({*round, "no time was left", needs});
+        continue;
+      }
+      Repeated once{*round};
+      const Status status = runWithin(once, budget, known);
+      if (status.ok())
+        all.push_back(std::move(once));
+      else
+        results.left_out.push_back({*round, status.message(), {}});
       progress(std::min(1.0, (wallSeconds() - start) / whole));
     }
   }
+  for (int run = 1; run < options.runs; ++run) {
+    for (Repeated& one : all) {
+      if (!fits(known.estimate(one.setting()))) continue;
+      // What ran once runs again; if not, its first run stands.
+      static_cast<void>(runWithin(one, budget, known));
+      progress(std::min(1.0, (wallSeconds() - start) / whole));
+    }
+  }
+  for (const Repeated& one : all) results.measurements.push_back(one.measurement());
   if (options.effects) {
     const CostOptions costs{.particles = 4000, .seconds = std::max(1.0, for_effects)};
     auto effects = measureEffectCosts(everyEffect(), costs, [](double) {});

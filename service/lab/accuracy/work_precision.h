@@ -39,6 +39,7 @@ struct Measurement {
 struct LeftOut {
   Setting setting;
   std::string reason;
+  std::optional<double> needs;  ///< s that a run is expected to take, where time was short
 };
 
 struct AccuracyResults {
@@ -54,11 +55,12 @@ struct AccuracyOptions {
   std::vector<const ValidationCase*> cases;
   std::vector<std::string> knobs;
   double minutes = 6.0;
-  int runs = 3;  ///< one where there is no time for so many
+  int runs = 3;
   bool effects = true;
 };
 
-/// Round by round, in each the cheapest first. Keeps the time: what is expected not to fit is left out, with the reason.
+/// Everything once, round by round and in each the cheapest first, then again. Keeps the time: what is expected not to fit is
+/// left out, with the reason.
 AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::function<void(double)>& progress);
 
 /// Indices of the measurements that no other one of the same list beats in both time and error, by time.

@@ -170,7 +170,8 @@ TEST(Accuracy, KeepsItsTimeAndSaysWhatWasLeftOut) {
   ASSERT_FALSE(results.measurements.empty());
   EXPECT_FALSE(results.left_out.empty());
   EXPECT_EQ(results.measurements.size() + results.left_out.size(), settingsOf(options.cases, options.knobs).size());
-  EXPECT_THAT(results.left_out.back().reason, HasSubstr("were left"));
+  EXPECT_EQ(results.left_out.back().reason, "no time was left");
+  EXPECT_GT(results.left_out.back().needs.value(), 0.0);
   const Measurement& first = results.measurements.front();
   ASSERT_EQ(first.figures.size(), 1u);
   EXPECT_GT(first.figures[0].error, 0.0);
@@ -179,7 +180,8 @@ TEST(Accuracy, KeepsItsTimeAndSaysWhatWasLeftOut) {
   EXPECT_GT(first.particles, 0u);
   const std::string csv = csvOf(results);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), static_cast<std::ptrdiff_t>(results.measurements.size() + 1));
-  EXPECT_THAT(chapterOf(results), HasSubstr("Left out of the 0.01 minutes:\n\n- `poiseuille`: "));
+  EXPECT_THAT(chapterOf(results),
+              HasSubstr("Left out of the 0.01 minutes, with what a run would have taken:\n\n- `poiseuille`: "));
 }
 
 AccuracyResults someResults() {
@@ -201,7 +203,11 @@ AccuracyResults someResults() {
   one.setting.knob = "precision";
   one.setting.knobs = {};
   one.setting.knobs.precision = sph::Precision::float64;
-  results.left_out.push_back({one.setting, "a run needs about 50 s, 4 s were left"});
+  results.left_out.push_back({one.setting, "no time was left", 50.0});
+  one.setting.knob = "threads";
+  one.setting.knobs = {};
+  one.setting.knobs.threads = 2;
+  results.left_out.push_back({one.setting, "it burst", {}});
   return results;
 }
 
@@ -213,12 +219,30 @@ TEST(Chapter, HasEveryFigureAtEverySettingAndNamesWhatIsMissing) {
                                  "| `hydrostatic` mean_compression | 0.20 % | 0.20 % |\n"));
   EXPECT_THAT(chapter, HasSubstr("| `hydrostatic`, 1280 | 2 | 2 |\n| us per particle and step | 0.25 to 0.25 | 0.25 to 0.25 |"));
   EXPECT_THAT(chapter, HasSubstr("| `hydrostatic` compression | 0.50 % | - | - | 0.38 % | - | - |"));
-  EXPECT_THAT(chapter, HasSubstr("- `hydrostatic`: double (a run needs about 50 s, 4 s were left)\n"));
+  EXPECT_THAT(chapter, HasSubstr("- `hydrostatic`: double (50 s), 2 threads (it burst)\n"));
 }
 
 TEST(Chapter, LinksToItsPictures) {
   EXPECT_EQ(picturesOf({{"spacing", "spacing.png"}, {"work_incline", ""}}, "results/"),
             "\n![spacing](results/spacing.png)\n\nCurves: `results/work_incline.csv`\n");
+}
+
+// The times of a case's runs are independent; its figures are not.
+TEST(Accuracy, RepeatsWhatItHasTimeFor) {
+  AccuracyOptions options;
+  options.cases = {findCase("couette")};
+  options.knobs = {"support"};
+  options.minutes = 30.0;  // it ends when all is done
+  options.effects = false;
+  const AccuracyResults results = measureAccuracy(options, [](double) {});
+  EXPECT_TRUE(results.left_out.empty());
+  ASSERT_EQ(results.measurements.size(), 4u) << "coarse, base and two support radii";
+  for (const Measurement& one : results.measurements) {
+    EXPECT_EQ(one.runs, 3);
+    EXPECT_EQ(one.figures.size(), 2u);
+    EXPECT_LE(one.cpu.low, one.cpu.median);
+    EXPECT_LE(one.cpu.median, one.cpu.high);
+  }
 }
 
 class ResultsFile : public testing::Test {
