@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "service/lab/accuracy/chapter.h"
 #include "service/lab/accuracy/report.h"
@@ -243,6 +244,34 @@ TEST(Accuracy, RepeatsWhatItHasTimeFor) {
     EXPECT_LE(one.cpu.low, one.cpu.median);
     EXPECT_LE(one.cpu.median, one.cpu.high);
   }
+}
+
+std::string textOf(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream{file, std::ios::binary}.rdbuf();
+  return text.str();
+}
+
+/// What stands between the first `from` and the next `to`.
+std::string between(const std::string& text, const std::string& from, const std::string& to) {
+  const std::size_t begin = text.find(from);
+  if (begin == std::string::npos) return {};
+  const std::size_t end = text.find(to, begin + from.size());
+  return end == std::string::npos ? std::string{} : text.substr(begin + from.size(), end - begin - from.size());
+}
+
+// Nothing in the README's chapter is picked or written by hand: it is the report of the command that it names.
+TEST(Chapter, InTheReadmeIsThatOfTheReport) {
+  const std::filesystem::path root{SOURCE_DIR};
+  const std::string block =
+      between(textOf(root / "README.md"), "<!-- begin bleedlab accuracy -->\n", "<!-- end bleedlab accuracy -->\n");
+  ASSERT_FALSE(block.empty());
+  const std::string folder = between(block, " -o ", " ");
+  const std::string report =
+      between(textOf(root / folder / "accuracy.md"), "# Accuracy against time\n\n", "\n## Every setting\n");
+  ASSERT_FALSE(report.empty()) << folder;
+  EXPECT_THAT(block, HasSubstr(report));
+  EXPECT_TRUE(std::filesystem::exists(root / folder / "accuracy.json"));
 }
 
 class ResultsFile : public testing::Test {
