@@ -144,7 +144,7 @@ std::string leftOutList(const AccuracyResults& results) {
     for (const LeftOut& one : results.left_out) {
       if (one.setting.which == &which)
         line += fmt::format("{}{} ({})", line.empty() ? "" : ", ", columnName(one.setting),
-                            one.needs ? fmt::format("{:.2g} s", *one.needs) : one.reason);
+                            one.needs ? fmt::format("{:.{}f} s", *one.needs, *one.needs < 10.0 ? 1 : 0) : one.reason);
     }
     if (!line.empty()) text += fmt::format("- `{}`: {}\n", which.name, line);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/core.h>
+#include <optional>
 
 #include "service/lab/cost_plot.h"
 #include "service/lab/lab_files.h"
@@ -43,15 +44,17 @@ picture::LinePlot workPlot(const AccuracyResults& results, const ValidationCase&
   return plot;
 }
 
-/// Error against one knob, a line for each case and figure.
+/// Error against one knob, a line for each case: its first figure. `also`: part of the names of others that are shown, too.
 picture::LinePlot knobPlot(const AccuracyResults& results, const std::string& knob, const std::string& label,
-                           double (*value)(const Knobs&)) {
+                           double (*value)(const Knobs&), const std::optional<std::string>& also = {}) {
   picture::LinePlot plot;
   plot.title = "Error against " + label;
   plot.x = {label, true, {}, {}};
   plot.y = {"error", true, {}, {}};
   for (const ValidationCase* which : casesIn(results)) {
     for (const std::string_view figure : errorFiguresOf(*which)) {
+      const bool shown = figure == which->error_figures.front() || (also && figure.find(*also) != std::string_view::npos);
+      if (!shown) continue;
       std::vector<std::pair<double, double>> points;
       for (const Measurement& one : results.measurements) {
         const Figure* found = one.setting.which == which ? one.find(figure) : nullptr;
@@ -92,7 +95,8 @@ Result<std::vector<WrittenPlot>> writePlots(const std::string& folder, const Acc
   const auto mach = [](const Knobs& knobs) { return knobs.mach_factor; };
   if (Status s = add(folder, "spacing", knobPlot(results, "spacing", "particles across", across), written); !s.ok()) return s;
   if (Status s = add(folder, "time_step", knobPlot(results, "cfl", "CFL number", cfl), written); !s.ok()) return s;
-  if (Status s = add(folder, "compressibility", knobPlot(results, "mach", "Mach factor", mach), written); !s.ok()) return s;
+  if (Status s = add(folder, "compressibility", knobPlot(results, "mach", "Mach factor", mach, "compression"), written); !s.ok())
+    return s;
   if (results.effects) {
     const auto bars = costPlot(*results.effects, "Cost of each effect, h = 2.5 dx", "on alone");
     if (Status s = add(folder, "effects_cost", bars, written); !s.ok()) return s;
