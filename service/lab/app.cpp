@@ -9,8 +9,11 @@ namespace {
 constexpr const char* kFooter =
     "Progress and messages go to stderr, results to stdout; with --json (or --json -) stdout holds one JSON object and nothing "
     "else.\n"
-    "Exit codes: 0 done, 1 the solver failed or a file cannot be written, 2 wrong command line or scene,\n"
-    "3 'replay --verify' found a difference, or that the recording cannot be compared.";
+    "Exit codes: 0 done; 1 done, and what was judged does not hold ('validate' misses a threshold, 'hardcases' or 'torture' "
+    "finds\n"
+    "a case that does not hold, nothing fits what 'choose' is asked for); 2 wrong command line or scene; 3 'replay --verify' "
+    "found\n"
+    "a difference, or that the recording cannot be compared; 4 the solver failed or a file cannot be written.";
 
 /// The commands that were possible where the command line ended; empty if it was complete.
 std::string commandsOf(const CLI::App& app) {

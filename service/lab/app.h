@@ -14,9 +14,10 @@ namespace bleedsim::lab {
 /// Exit codes, documented in --help.
 enum class ExitCode : int {
   done = 0,
-  failed = 1,   ///< the solver refused or failed, or a file cannot be written
+  missed = 1,   ///< it ran, and what was judged does not hold: a threshold, a hard case, a random scene, a budget
   usage = 2,    ///< wrong command line or scene
   differs = 3,  ///< a recording that was verified is not what its replay gives, or cannot be compared with it
+  failed = 4,   ///< the solver refused or failed, or a file cannot be written
 };
 
 struct Context {

@@ -247,6 +247,19 @@ nlohmann::json Chooser::toJson() const {
             {"compression", measured_.density_error}}}};
 }
 
+/// Of a choice that cannot be made.
+ExitCode codeOf(StatusCode code) {
+  switch (code) {
+    case StatusCode::capacity:
+      return ExitCode::missed;  // nothing fits
+    case StatusCode::invalid_argument:
+    case StatusCode::not_found:
+      return ExitCode::usage;
+    default:
+      return ExitCode::failed;
+  }
+}
+
 ExitCode run(const Arguments& arguments) {
   auto loaded = scene::loadScene(arguments.scene);
   if (!loaded) return fail(ExitCode::usage, loaded.status().message());
@@ -255,10 +268,7 @@ ExitCode run(const Arguments& arguments) {
   {
     Progress progress{"choose"};
     progress.report(0.0);
-    if (Status status = chooser.decide(); !status.ok()) {
-      const bool wrong = status.code() == StatusCode::invalid_argument || status.code() == StatusCode::not_found;
-      return fail(wrong ? ExitCode::usage : ExitCode::failed, status.message());
-    }
+    if (Status status = chooser.decide(); !status.ok()) { return fail(codeOf(status.code()), status.message()); }
     progress.report(0.6);
     if (Status status = chooser.measure(); !status.ok()) return fail(ExitCode::failed, status.message());
   }
@@ -295,6 +305,7 @@ void addChooseCommand(CLI::App& app, Context& context) {
       ->check(CLI::Range(1, 64));
   command->add_option("-o,--output", arguments->output, "Write the scene here")->type_name("SCENE_OUT");
   addJsonOption(*command, arguments->json);
+  command->footer("Exit code 1: nothing fits, with the figure that decides.");
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }
 

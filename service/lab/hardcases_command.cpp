@@ -76,7 +76,7 @@ ExitCode run(const Arguments& arguments) {
     if (written.ok()) written = writeJson((std::filesystem::path{arguments.folder} / "hardcases.json").string(), json);
     if (!written.ok()) return fail(ExitCode::failed, written.message());
   }
-  return sound_holds ? ExitCode::done : ExitCode::failed;
+  return sound_holds ? ExitCode::done : ExitCode::missed;
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ ExitCode run(const Arguments& arguments) {
   }
   fmt::print("{} scenes ran, {} refused as invalid, {} failed; {:.1f} million particle-steps, {} steps tried again\n", ran,
              arguments.count - ran, failed, 1e-6 * static_cast<double>(particle_steps), retried);
-  return failed == 0 ? ExitCode::done : ExitCode::failed;
+  return failed == 0 ? ExitCode::done : ExitCode::missed;
 }
 
 }  // namespace

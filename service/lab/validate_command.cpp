@@ -1,5 +1,6 @@
 // bleedlab validate: the solver against physics whose answer is known.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/core.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -38,7 +39,6 @@ ExitCode run(const Arguments& arguments) {
   if (!knobs) return fail(ExitCode::usage, knobs.status().message());
   if (Status status = makeFolder(arguments.folder); !status.ok()) return fail(ExitCode::failed, status.message());
   ValidationRun all{*knobs, thisMachine(), {}};
-  bool failed = false;
   {
     Progress progress{"validate"};
     for (const ValidationCase* one : *cases) {
@@ -48,7 +48,6 @@ ExitCode run(const Arguments& arguments) {
         outcome.result = std::move(*result);
       else
         outcome.status = result.status();
-      failed = failed || !result;
       all.outcomes.push_back(std::move(outcome));
       progress.report(static_cast<double>(all.outcomes.size()) / static_cast<double>(cases->size()));
     }
@@ -58,7 +57,11 @@ ExitCode run(const Arguments& arguments) {
   if (!arguments.folder.empty()) {
     if (Status status = writeReport(arguments.folder, all); !status.ok()) return fail(ExitCode::failed, status.message());
   }
-  return failed ? ExitCode::failed : ExitCode::done;
+  const std::vector<std::string> misses = missesOf(all);
+  for (const std::string& miss : misses) fmt::print(stderr, "bleedlab: {}\n", miss);
+  if (std::any_of(all.outcomes.begin(), all.outcomes.end(), [](const CaseOutcome& one) { return !one.status.ok(); }))
+    return ExitCode::failed;
+  return misses.empty() ? ExitCode::done : ExitCode::missed;
 }
 
 }  // namespace
@@ -71,6 +74,9 @@ void addValidateCommand(CLI::App& app, Context& context) {
   addKnobOptions(*command, arguments->knobs);
   command->add_option("-o,--output", arguments->folder, "Write report.md and plots here")->type_name("DIR");
   addJsonOption(*command, arguments->json);
+  command->footer(
+      "Exit code 1: a figure misses its threshold; each that does is named on stderr. 4: a case could not be run. What has no\n"
+      "threshold is reported only.");
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }
 

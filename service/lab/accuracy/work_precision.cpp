@@ -14,10 +14,25 @@ constexpr double kEffectsPart = 0.1;  // of the time
 
 double wallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// What a run of a case took, and at which knobs.
-struct Known {
-  Knobs knobs;
-  double seconds = 0.0;
+/// What runs of the cases took, and at which knobs.
+class CostTable {
+ public:
+  /// Of one run, s; 0 of a case that did not run yet.
+  double estimate(const Setting& setting) const {
+    const auto found = known_.find(setting.which->name);
+    if (found == known_.end()) return 0.0;
+    return estimateSeconds(*setting.which, found->second.knobs, found->second.seconds, setting.knobs);
+  }
+  void add(const Setting& setting, double seconds) {
+    if (setting.knob == "spacing" || setting.knob == "base") known_[setting.which->name] = {setting.knobs, seconds};
+  }
+
+ private:
+  struct Known {
+    Knobs knobs;
+    double seconds = 0.0;
+  };
+  std::map<std::string_view, Known> known_;
 };
 
 /// A body of blood with every effect, for the bar of what each costs.
@@ -37,34 +52,56 @@ sph::WorldDescription everyEffect() {
   return scene;
 }
 
-/// The same numbers in every run, so only the first one's figure is kept; the times differ.
-Result<Measurement> measure(const Setting& setting, int runs, const std::function<bool()>& has_time) {
-  Measurement measurement;
-  measurement.setting = setting;
-  std::vector<double> cpu;
-  std::vector<double> wall;
-  std::vector<double> microseconds;
-  for (int k = 0; k < runs && (k == 0 || has_time()); ++k) {
+/// A measurement with what each run took.
+class Repeated {
+ public:
+  explicit Repeated(const Setting& setting) { measurement_.setting = setting; }
+
+  const Setting& setting() const { return measurement_.setting; }
+
+  /// One run more. The figures are the same in every run; the times differ.
+  Status run() {
+    const Setting& setting = measurement_.setting;
     const auto result = setting.which->run(setting.knobs);
     if (!result) return result.status();
-    const Figure* figure = result->find(setting.which->error_figure);
-    if (figure == nullptr) return Status{StatusCode::internal, fmt::format("no figure '{}'", setting.which->error_figure)};
+    measurement_.figures.clear();
+    for (const std::string_view name : errorFiguresOf(*setting.which)) {
+      const Figure* figure = result->find(name);
+      if (figure == nullptr) return {StatusCode::internal, fmt::format("no figure '{}'", name)};
+      measurement_.figures.push_back(*figure);
+    }
     const RunCost& cost = result->cost;
-    if (!(cost.simulated > 0.0)) return Status{StatusCode::internal, "too short to be timed"};
-    measurement.value = figure->value;
-    measurement.reference = figure->reference;
-    measurement.error = figure->error;
-    measurement.particles = cost.particles;
-    measurement.steps = cost.steps;
-    cpu.push_back(cost.cpu / cost.simulated);
-    wall.push_back(cost.wall / cost.simulated);
-    microseconds.push_back(cost.microseconds());
-    ++measurement.runs;
+    if (!(cost.simulated > 0.0)) return {StatusCode::internal, "too short to be timed"};
+    measurement_.particles = cost.particles;
+    measurement_.steps = cost.steps;
+    ++measurement_.runs;
+    cpu_.push_back(cost.cpu / cost.simulated);
+    wall_.push_back(cost.wall / cost.simulated);
+    microseconds_.push_back(cost.microseconds());
+    return {};
   }
-  measurement.cpu = spreadOf(cpu);
-  measurement.wall = spreadOf(wall);
-  measurement.microseconds = spreadOf(microseconds);
-  return measurement;
+
+  Measurement measurement() const {
+    Measurement whole = measurement_;
+    whole.cpu = spreadOf(cpu_);
+    whole.wall = spreadOf(wall_);
+    whole.microseconds = spreadOf(microseconds_);
+    return whole;
+  }
+
+ private:
+  Measurement measurement_;
+  std::vector<double> cpu_, wall_, microseconds_;
+};
+
+/// A run whose time is taken from the budget.
+Status runWithin(Repeated& repeated, TimeBudget& budget, CostTable& known) {
+  const double begin = wallSeconds();
+  const Status status = repeated.run();
+  const double took = wallSeconds() - begin;
+  budget.spend(took);
+  if (status.ok()) known.add(repeated.setting(), took);
+  return status;
 }
 
 /// The extreme measurement of a knob of one case by `key`; null without one.
@@ -88,6 +125,29 @@ Spread spreadOf(std::vector<double> values) {
   return {median, values.front(), values.back()};
 }
 
+const Figure* Measurement::find(std::string_view figure) const {
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& one) { return one.name == figure; });
+  return found == figures.end() ? nullptr : &*found;
+}
+
+std::vector<std::string_view> errorFiguresOf(const ValidationCase& which) {
+  std::vector<std::string_view> names;
+  for (const std::string_view name : which.error_figures) {
+    if (!name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
+std::vector<const ValidationCase*> casesIn(const AccuracyResults& results) {
+  std::vector<const ValidationCase*> cases;
+  for (const ValidationCase& one : validationCases()) {
+    const bool measured = std::any_of(results.measurements.begin(), results.measurements.end(),
+                                      [&](const Measurement& measurement) { return measurement.setting.which == &one; });
+    if (measured) cases.push_back(&one);
+  }
+  return cases;
+}
+
 AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::function<void(double)>& progress) {
   AccuracyResults results;
   results.machine = thisMachine();
@@ -95,36 +155,38 @@ AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::funct
   const double start = wallSeconds();
   const double whole = 60.0 * options.minutes;
   const double for_effects = options.effects ? kEffectsPart * whole : 0.0;
+  CostTable known;
   TimeBudget budget{whole - for_effects};
-  std::map<std::string_view, Known> known;
-  for (const Setting& setting : settingsOf(options.cases, options.knobs)) {
-    const auto before = known.find(setting.which->name);
-    const bool first = before == known.end();
-    const double estimate =
-        first ? 0.0 : options.runs * estimateSeconds(*setting.which, before->second.knobs, before->second.seconds, setting.knobs);
-    if (!budget.fits(estimate) || !(budget.left() > 0.0)) {
-      results.left_out.push_back(
-          {setting, fmt::format("needs about {:.0f} s, {:.0f} s were left", estimate, std::max(0.0, budget.left()))});
-      continue;
+  std::vector<Setting> settings = settingsOf(options.cases, options.knobs);
+  std::vector<Repeated> all;
+  const auto fits = [&](double needs) { return budget.fits(needs) && budget.left() > 0.0; };
+  for (auto round = settings.begin(); round != settings.end();) {
+    const auto end = std::find_if(round, settings.end(), [&](const Setting& one) { return one.round != round->round; });
+    std::stable_sort(round, end, [&](const Setting& a, const Setting& b) { return known.estimate(a) < known.estimate(b); });
+    for (; round != end; ++round) {
+      const double needs = known.estimate(*round);
+      if (!fits(needs)) {
+        results.left_out.push_back({*round, "no time was left", needs});
+        continue;
+      }
+      Repeated once{*round};
+      const Status status = runWithin(once, budget, known);
+      if (status.ok())
+        all.push_back(std::move(once));
+      else
+        results.left_out.push_back({*round, status.message(), {}});
+      progress(std::min(1.0, (wallSeconds() - start) / whole));
     }
-    const double begin = wallSeconds();
-    double one_run = 0.0;
-    auto measured = measure(setting, options.runs, [&] {
-      const double now = wallSeconds() - begin;
-      one_run = one_run > 0.0 ? one_run : now;
-      return now + one_run <= budget.left();
-    });
-    const double took = wallSeconds() - begin;
-    budget.spend(took);
-    if (measured) {
-      if (setting.knob == "spacing" || setting.knob == "base")
-        known[setting.which->name] = {setting.knobs, took / measured->runs};
-      results.measurements.push_back(std::move(*measured));
-    } else {
-      results.left_out.push_back({setting, measured.status().message()});
-    }
-    progress(std::min(1.0, (wallSeconds() - start) / whole));
   }
+  for (int run = 1; run < options.runs; ++run) {
+    for (Repeated& one : all) {
+      if (!fits(known.estimate(one.setting()))) continue;
+      // What ran once runs again; if not, its first run stands.
+      static_cast<void>(runWithin(one, budget, known));
+      progress(std::min(1.0, (wallSeconds() - start) / whole));
+    }
+  }
+  for (const Repeated& one : all) results.measurements.push_back(one.measurement());
   if (options.effects) {
     const CostOptions costs{.particles = 4000, .seconds = std::max(1.0, for_effects)};
     auto effects = measureEffectCosts(everyEffect(), costs, [](double) {});
@@ -163,21 +225,22 @@ std::optional<double> convergenceOrder(const std::vector<double>& x, const std::
   return -(count * sum_xe - sum_x * sum_e) / spread;
 }
 
-SeparatedErrors separate(const std::vector<Measurement>& measurements, const ValidationCase& which) {
+SeparatedErrors separate(const std::vector<Measurement>& measurements, const ValidationCase& which, std::string_view figure) {
   std::vector<const Measurement*> own;
   const Measurement* base = nullptr;
   for (const Measurement& one : measurements) {
-    if (one.setting.which != &which) continue;
+    if (one.setting.which != &which || one.find(figure) == nullptr) continue;
     own.push_back(&one);
     if (one.setting.knob == "base") base = &one;
   }
   SeparatedErrors errors;
   if (base == nullptr) return errors;
-  errors.total = base->error;
-  const double scale = base->reference ? std::abs(*base->reference) : 1.0;
+  const Figure& at_base = *base->find(figure);
+  errors.total = at_base.error;
+  const double scale = at_base.reference ? std::abs(*at_base.reference) : 1.0;
   const auto change = [&](const Measurement* one) -> std::optional<double> {
     if (one == nullptr) return std::nullopt;
-    return std::abs(one->value - base->value) / scale;
+    return std::abs(one->find(figure)->value - at_base.value) / scale;
   };
   const Measurement* finest = furthest(own, "spacing", [](const Knobs& knobs) { return double(knobs.across); });
   if (finest != nullptr && finest->setting.knobs.across > base->setting.knobs.across) errors.spacing = change(finest);
@@ -191,7 +254,7 @@ SeparatedErrors separate(const std::vector<Measurement>& measurements, const Val
   for (const Measurement* one : own) {
     if (one->setting.knob != "spacing" && one->setting.knob != "base") continue;
     across.push_back(one->setting.knobs.across);
-    error.push_back(one->error);
+    error.push_back(one->find(figure)->error);
   }
   if (across.size() >= 3) errors.spacing_order = convergenceOrder(across, error);
   return errors;

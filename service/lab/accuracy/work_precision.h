@@ -23,9 +23,7 @@ Spread spreadOf(std::vector<double> values);
 
 struct Measurement {
   Setting setting;
-  double value = 0.0;  ///< of the case's error figure
-  std::optional<double> reference;
-  double error = 0.0;
+  std::vector<Figure> figures;  ///< the case's error figures, in its order; at least one
   std::uint32_t particles = 0;
   std::uint64_t steps = 0;  ///< of one run
   int runs = 0;
@@ -33,12 +31,15 @@ struct Measurement {
   Spread wall;          ///< s for each simulated s
   Spread microseconds;  ///< CPU time per particle and step
   double realTimeFactor() const { return wall.median > 0.0 ? 1.0 / wall.median : 0.0; }
+  /// Null if there is none of that name.
+  const Figure* find(std::string_view figure) const;
 };
 
 /// What was not measured, and why.
 struct LeftOut {
   Setting setting;
   std::string reason;
+  std::optional<double> needs;  ///< s that a run is expected to take, where time was short
 };
 
 struct AccuracyResults {
@@ -58,7 +59,8 @@ struct AccuracyOptions {
   bool effects = true;
 };
 
-/// Keeps the time: what is expected not to fit is left out, with the reason.
+/// Everything once, round by round and in each the cheapest first, then again. Keeps the time: what is expected not to fit is
+/// left out, with the reason.
 AccuracyResults measureAccuracy(const AccuracyOptions& options, const std::function<void(double)>& progress);
 
 /// Indices of the measurements that no other one of the same list beats in both time and error, by time.
@@ -67,13 +69,18 @@ std::vector<std::size_t> paretoFront(const std::vector<double>& time, const std:
 /// p of error ~ x^-p by least squares of the logarithms; none with fewer than two points above 0.
 std::optional<double> convergenceOrder(const std::vector<double>& x, const std::vector<double>& error);
 
-/// What part of a figure each knob is responsible for, of one case: the change of its value, over the reference, from the base
+/// What part of a figure of a case each knob is responsible for: the change of its value, over the reference, from the base
 /// to the finest spacing, the shortest step and the largest Mach factor that were measured; none without one.
 struct SeparatedErrors {
   std::optional<double> total;  ///< error at the base
   std::optional<double> spacing, time_step, compressibility, precision;
   std::optional<double> spacing_order;
 };
-SeparatedErrors separate(const std::vector<Measurement>& measurements, const ValidationCase& which);
+SeparatedErrors separate(const std::vector<Measurement>& measurements, const ValidationCase& which, std::string_view figure);
+
+/// The cases that have measurements, in their order.
+std::vector<const ValidationCase*> casesIn(const AccuracyResults& results);
+/// The names of a case's error figures.
+std::vector<std::string_view> errorFiguresOf(const ValidationCase& which);
 
 }  // namespace bleedsim::lab

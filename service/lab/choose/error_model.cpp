@@ -31,7 +31,7 @@ Result<FlowPoint> measureFlow(double support_ratio, int rows, const sph::WorldOp
   knobs.beside = false;
   const auto result = which.run(knobs);
   if (!result) return result.status();
-  return FlowPoint{support_ratio, double(rows), result->find(which.error_figure)->error};
+  return FlowPoint{support_ratio, double(rows), result->find(which.error_figures.front())->error};
 }
 
 Result<std::vector<FlowPoint>> readFlowPoints(const std::filesystem::path& file) {

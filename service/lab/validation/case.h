@@ -2,6 +2,7 @@
 // very functions.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,6 +44,7 @@ struct RunCost {
   double wall = 0.0;            ///< s
   double all_wall = 0.0;        ///< s, with what was left out: what a run of the case takes
   std::uint32_t particles = 0;  ///< of the largest world
+  std::uint64_t clamped = 0;    ///< particle-steps whose acceleration or speed the solver cut
 
   double realTimeFactor() const { return wall > 0.0 ? simulated / wall : 0.0; }
   double microseconds() const { return particle_steps > 0 ? 1e6 * cpu / static_cast<double>(particle_steps) : 0.0; }
@@ -56,21 +58,27 @@ struct CasePlot {
 struct CaseResult {
   std::vector<Figure> figures;
   std::vector<CasePlot> plots;
-  std::vector<std::string> notes;  ///< what could not be run, and why
+  std::vector<std::string> notes;  ///< what could not be run, and why; what to doubt
   RunCost cost;
 
   /// Null if there is none of that name.
   const Figure* find(std::string_view name) const;
 };
 
+/// Names of figures of a case; those that are empty count for none.
+using ErrorFigures = std::array<std::string_view, 3>;
+
 struct ValidationCase {
   std::string_view name;
   int number;  ///< in physics.md section 5; 0: beside them
   std::string_view measures;
-  std::string_view reference;     ///< formula and source
-  std::string_view error_figure;  ///< that stands for the case in work-precision plots; empty: none
+  std::string_view reference;  ///< formula and source
+  ErrorFigures error_figures;  ///< that stand for the case in work-precision, the first one in its plot
   double cost_power;  ///< p of its run's cost ~ across^p: how many sides have more particles, and how much shorter steps get
   Result<CaseResult> (*run)(const Knobs& knobs);
+  std::string_view shortfall = {};  ///< what it comes from where a figure misses its threshold, as far as it was found
+
+  bool measuresAccuracy() const { return !error_figures.front().empty(); }
 };
 
 /// In the order of their numbers.

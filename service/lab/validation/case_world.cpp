@@ -53,6 +53,11 @@ Status CaseWorld::runFor(double seconds, const std::function<void()>& each) {
     if (Status status = step(end - world_->time()); !status.ok()) return status;
     if (each) each();
   }
+  const sph::WorldStats now = stats();
+  const auto counted = [&](sph::Counter counter) { return now.counters[static_cast<std::size_t>(counter)]; };
+  const std::uint64_t clamped = counted(sph::Counter::acceleration_clamped) + counted(sph::Counter::speed_clamped);
+  cost_->clamped += clamped - clamped_;
+  clamped_ = clamped;
   return {};
 }
 

@@ -17,7 +17,8 @@ class CaseWorld {
   /// `cost` must outlive the world.
   static Result<CaseWorld> create(sph::WorldDescription scene, const Knobs& knobs, RunCost& cost);
 
-  /// Until exactly `seconds` have passed; `each` runs after every step. Fails if the solver does.
+  /// Until exactly `seconds` have passed; `each` runs after every step. Fails if the solver does. What the solver had to cut
+  /// goes to the cost.
   Status runFor(double seconds, const std::function<void()>& each = {});
   /// One step of at most `limit` s.
   Status step(double limit);
@@ -33,6 +34,7 @@ class CaseWorld {
 
   std::unique_ptr<sph::World> world_;
   RunCost* cost_;
+  std::uint64_t clamped_ = 0;  // of the cost's, those of this world
 };
 
 /// Accelerations of the scene's particles as they stand, m/s^2, by id: velocities after one step of `dt` s that moves nothing

@@ -148,8 +148,8 @@ Result<CaseResult> runDropPeriod(const Knobs& knobs) {
 }
 
 // p(0) = 2 sigma/R, R that of the volume. On the ball as it is seeded the solver's factor 1.56 stands for 2 (surface_tension.h),
-// hence lattice_balance. Of the drop at rest the figures are means over time, because a drop rings at the speed of sound; a wide
-// drop has half the time to come to rest.
+// hence lattice_balance. Of the drop at rest the figures are means over time, because a drop rings at the speed of sound; how
+// long a drop takes to come to rest goes with its omega, R^(3/2).
 Result<CaseResult> runDropPressure(const Knobs& knobs) {
   CaseResult result;
   const double bound = knobs.support_ratio < 3.0 ? 0.30 : 0.05;
@@ -159,21 +159,21 @@ Result<CaseResult> runDropPressure(const Knobs& knobs) {
   if (!lattice) return lattice.status();
   result.figures.push_back(compared("lattice_balance", lattice->along * 2.0 / 1.56, 1.0, bound));
 
-  const bool large = knobs.across > 20;
-  const auto resting = restingDrop(knobs, kSpacing, large ? 0.05 : 0.1, result.cost);
+  const double settling = 0.1 * std::pow(std::max(1.0, knobs.across / 20.0), 1.5);  // s
+  const auto resting = restingDrop(knobs, kSpacing, settling, result.cost);
   if (!resting) return resting.status();
   sph::WorldDescription scene = restarted(**resting);
   scene.effects.viscosity->viscosity = 0.05;
   auto world = CaseWorld::create(scene, knobs, result.cost);
   if (!world) return world.status();
   const double laplace = 2.0 * kSigma / radiusOf(**world);
-  if (Status status = world->runFor(large ? 0.05 : 0.1); !status.ok()) return status;
+  if (Status status = world->runFor(settling); !status.ok()) return status;
   double pressure = 0.0;
   RadialBalance balance;
   int pressures = 0;
   int balances = 0;
   Status failed;
-  const Status status = world->runFor(large ? 0.05 : 0.2, [&] {
+  const Status status = world->runFor(2.0 * settling, [&] {
     if ((*world)->stepCount() % 5 == 0) {
       pressure += corePressure(**world) / laplace;
       ++pressures;

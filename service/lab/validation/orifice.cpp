@@ -15,11 +15,14 @@ using sph::Vec3;
 constexpr double kLeastCd = 0.61;  // sharp edge
 constexpr double kMostCd = 0.97;   // rounded
 
+/// 1 mm, half of the wound, at 20 across.
+double spacingOf(const Knobs& knobs) { return 0.02 / knobs.across; }
+
 /// What a wound brings in `seconds`, over the integral of its flow; the flow goes to `flow`, m^3/s.
 Result<double> emittedBy(double pressure, double coefficient, const Knobs& knobs, RunCost& cost, double& flow) {
   constexpr double kSeconds = 0.1;
-  sph::WorldDescription scene = emptyScene(knobs, 0.001, 0.3);
-  scene.capacity = 4000;
+  sph::WorldDescription scene = emptyScene(knobs, spacingOf(knobs), 0.3);
+  scene.capacity = static_cast<std::uint32_t>(2e-6 / scene.particleVolume());
   scene.domain.lower = {-0.02, -0.02, -0.01};
   scene.domain.upper = {0.02, 0.02, 0.03};
   scene.effects.pressure.emplace();
@@ -51,7 +54,7 @@ Result<CaseResult> runOrificeLaw(const Knobs& knobs) {
       if (!brought) return brought.status();
       const std::string suffix = fmt::format("{:.0f}_mmhg_cd_0_{:.0f}", mmhg, 100.0 * coefficient);
       result.figures.push_back(compared("flow_at_" + suffix, 1e6 * flow, 1e6 * law, 1e-6, "mL/s"));
-      const double particle = 1e-9 / 0.1;  // one of them over the time of the run, m^3/s
+      const double particle = std::pow(spacingOf(knobs), 3.0) / 0.1;  // one of them over the time of the run, m^3/s
       result.figures.push_back(compared("volume_at_" + suffix, 1e6 * *brought, 1e6 * law, 1.01 * particle / law, "mL/s"));
     }
   }

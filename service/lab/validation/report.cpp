@@ -1,18 +1,15 @@
 #include "service/lab/validation/report.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "service/lab/lab_files.h"
+#include "service/lab/percent_text.h"
 
 namespace bleedsim::lab {
 namespace {
-
-std::string percent(double error) {
-  if (error != 0.0 && error < 5e-5) return fmt::format("{:.1e}", error);
-  return fmt::format("{:.2f} %", 100.0 * error);
-}
 
 std::string withUnit(double value, const std::string& unit) {
   return unit.empty() ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} {}", value, unit);
@@ -28,8 +25,9 @@ nlohmann::json toJson(const Figure& figure) {
 }
 
 nlohmann::json toJson(const RunCost& cost) {
-  return {{"steps", cost.steps}, {"particles", cost.particles}, {"simulated_s", cost.simulated},
-          {"cpu_s", cost.cpu},   {"wall_s", cost.wall},         {"us_per_particle_step", cost.microseconds()}};
+  return {{"steps", cost.steps},    {"particles", cost.particles}, {"simulated_s", cost.simulated},
+          {"cpu_s", cost.cpu},      {"wall_s", cost.wall},         {"us_per_particle_step", cost.microseconds()},
+          {"clamped", cost.clamped}};
 }
 
 std::string numberOf(const ValidationCase& one) { return one.number > 0 ? std::to_string(one.number) : "-"; }
@@ -63,8 +61,8 @@ std::string tableOf(const ValidationRun& run) {
     if (!outcome.status.ok()) text += fmt::format("| {} | | | | | | could not be run: {} |\n", name, outcome.status.message());
     for (const Figure& figure : outcome.result.figures) {
       text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, figure.name, withUnit(figure.value, figure.unit),
-                          figure.reference ? withUnit(*figure.reference, figure.unit) : "-", percent(figure.error),
-                          figure.bound ? percent(*figure.bound) : "-", gradeName(figure.grade()));
+                          figure.reference ? withUnit(*figure.reference, figure.unit) : "-", percentText(figure.error),
+                          percentText(figure.bound), gradeName(figure.grade()));
     }
     for (const std::string& note : outcome.result.notes) text += fmt::format("| {} | | | | | | {} |\n", name, note);
   }
@@ -92,6 +90,21 @@ nlohmann::json toJson(const ValidationRun& run) {
           {"cases", std::move(cases)}};
 }
 
+std::vector<std::string> missesOf(const ValidationRun& run) {
+  std::vector<std::string> misses;
+  for (const CaseOutcome& outcome : run.outcomes) {
+    if (!outcome.status.ok())
+      misses.push_back(fmt::format("{} could not be run: {}", outcome.which->name, outcome.status.message()));
+    for (const Figure& figure : outcome.result.figures) {
+      if (figure.grade() != Grade::misses) continue;
+      misses.push_back(fmt::format("{} misses its threshold: {} is {}, off by {}; {} are allowed", outcome.which->name,
+                                   figure.name, withUnit(figure.value, figure.unit), percentText(figure.error),
+                                   percentText(figure.bound)));
+    }
+  }
+  return misses;
+}
+
 Status writeReport(const std::string& folder, const ValidationRun& run) {
   std::string text = fmt::format("# Validation\n\n{}, thresholds of the preset {}.\n{}.\n\n{}", lineOf(run.knobs),
                                  run.knobs.preset == Preset::fine ? "fine" : "standard", lineOf(run.machine), tableOf(run));
@@ -103,7 +116,12 @@ Status writeReport(const std::string& folder, const ValidationRun& run) {
       text += fmt::format(" Up to {} particles, {} steps, {:.1f} s CPU time, {:.3f} us per particle and step.", cost.particles,
                           cost.steps, cost.cpu, cost.microseconds());
     }
+    if (cost.clamped > 0)
+      text += fmt::format(" The solver cut {} accelerations or speeds of particles to its bounds.", cost.clamped);
     text += "\n";
+    const auto misses = [](const Figure& figure) { return figure.grade() == Grade::misses; };
+    const bool missed = std::any_of(outcome.result.figures.begin(), outcome.result.figures.end(), misses);
+    if (missed && !which.shortfall.empty()) text += fmt::format("\nWhat misses: {}\n", which.shortfall);
     for (const CasePlot& plot : outcome.result.plots) {
       std::string picture;
       if (Status status = writeSmallPlot(folder, plot.name, plot.plot, picture); !status.ok()) return status;

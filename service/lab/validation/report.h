@@ -29,6 +29,9 @@ std::string lineOf(const Knobs& knobs);
 std::string tableOf(const ValidationRun& run);
 nlohmann::json toJson(const ValidationRun& run);
 
+/// A line for each figure that misses its threshold and for each case that could not be run.
+std::vector<std::string> missesOf(const ValidationRun& run);
+
 /// report.md, with the plots of every case beside it. The folder must exist.
 Status writeReport(const std::string& folder, const ValidationRun& run);
 

@@ -22,6 +22,10 @@ PlaneFlow cassonFlow();
 /// G = 22.81 Pa/m. mu(g) g = G y, solved by bisection, and integrated from the plate inwards; linear between 2000 nodes.
 PlaneFlow carreauFlow();
 
+/// The flow `seconds` after it was started at `part` of its profile: rho u_t = G + (mu(|u_y|) u_y)_y by implicit steps of 1 ms on
+/// 200 cells, mu that of the step before.
+PlaneFlow flowAfter(const PlaneFlow& flow, double part, double seconds);
+
 double meanSpeed(const PlaneFlow& flow);  ///< m/s
 
 }  // namespace bleedsim::lab

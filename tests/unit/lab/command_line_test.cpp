@@ -111,6 +111,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"accuracy_figureless", {"accuracy", "--cases", "free_fall"}, "has no figure to judge accuracy by"},
         BadLine{"accuracy_knob", {"accuracy", "--knobs", "colour"}, "colour not in {spacing,cfl,mach,support,precision,threads}"},
         BadLine{"accuracy_minutes", {"accuracy", "--minutes", "0"}, "'0' is not a number from 0.01 to 600"},
+        BadLine{"accuracy_chapter", {"accuracy", "--chapter", "a.md"}, "--chapter requires --output"},
+        BadLine{"accuracy_chapter_missing", {"accuracy", "-o", "a", "--chapter", "/nosuch.md"}, "cannot read '/nosuch.md'"},
+        BadLine{"accuracy_chapter_without_its_place",
+                {"accuracy", "-o", "a", "--chapter", SCENE_DIR "/round_wound.textproto"},
+                "needs one line '<!-- begin bleedlab accuracy -->'"},
         BadLine{"choose_sceneless", {"choose"}, "--scene is required"},
         BadLine{"choose_scene", {"choose", "--scene", "/nosuch.textproto"}, "does not exist; give the path of a scene file"},
         BadLine{"choose_budget", {"choose", "--scene", "a", "--budget-ms", "-1"}, "'-1' is not a number from 0.01 to 100000"},
@@ -157,6 +162,25 @@ TEST(CommandLine, JsonGoesWhereItIsAsked) {
     EXPECT_TRUE(nlohmann::json::accept(in));
   }
   std::filesystem::remove(file);
+}
+
+// Scripts tell by the code whether what was judged holds: 8 rows across resolve no vortex.
+TEST(CommandLine, AMissedThresholdHasACodeOfItsOwn) {
+  testing::internal::CaptureStdout();
+  const Outcome missed = run({"validate", "--case", "taylor_green", "--across", "8"});
+  EXPECT_EQ(missed.code, 1);
+  EXPECT_THAT(missed.errors, testing::HasSubstr("bleedlab: taylor_green misses its threshold: decay_rate is "));
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), testing::HasSubstr("| misses |"));
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run({"validate", "--case", "platelet_spread", "--across", "12"}).code, 0);
+  testing::internal::GetCapturedStdout();
+}
+
+TEST(CommandLine, WhatCannotBeWrittenIsNoMiss) {
+  EXPECT_EQ(run({"validate", "--case", "interpolation", "-o", "/proc/nosuch"}).code, 4);
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run({"hardcases", "--case", "bad_commands", "--model", "sound", "--json", "/proc/nosuch"}).code, 4);
+  testing::internal::GetCapturedStdout();
 }
 
 TEST(CommandLine, AMissingSceneIsNamedWithTheFolder) {

@@ -17,10 +17,9 @@ struct Exception {
 };
 // Where the solver misses a threshold of the design at this preset: what it keeps instead. cases_test.cpp has the reasons.
 constexpr std::array kExceptions{
-    Exception{"taylor_green", "decay_rate", 0.12},     // measured 9.6 %
-    Exception{"couette", "l2_at_0_0225_s", 0.02},      // measured 1.74 %
-    Exception{"couette", "middle_at_0_0225_s", 0.16},  // measured 13.9 %
-    Exception{"couette", "middle_at_0_045_s", 0.045},  // measured 3.9 %
+    Exception{"taylor_green", "decay_rate", 0.12},                 // measured 10.1 %
+    Exception{"orifice_resolved", "discharge_coefficient", 0.26},  // measured 24.2 %: Cd = 0.60
+    Exception{"drop_pressure", "core_pressure", 0.09},             // measured 8.0 %
 };
 
 class FineTest : public testing::TestWithParam<std::string> {};
@@ -66,8 +65,8 @@ double orderOf(const char* which, const char* figure, int coarse) {
 // Walls are of first order in what friction does to the row beside them; the interior of a parallel flow is of second order.
 TEST(Convergence, poiseuilleIsAtLeastOfFirstOrder) { EXPECT_GT(orderOf("poiseuille", "l2_at_0_0225_s", 12), 0.9); }
 TEST(Convergence, platelets) { EXPECT_GT(orderOf("platelet_spread", "l2", 12), 1.5); }
-// Below first order where the plane has just started: 0.58 was measured from 12 to 24 across, 0.72 from 20 to 40.
-TEST(Convergence, couetteAtItsStart) { EXPECT_GT(orderOf("couette", "l2_at_0_045_s", 12), 0.5); }
+// 1.85 was measured from 12 to 24 across.
+TEST(Convergence, couetteAtItsStart) { EXPECT_GT(orderOf("couette", "l2_at_0_045_s", 12), 1.5); }
 
 }  // namespace
 }  // namespace bleedsim::lab
