@@ -1,13 +1,10 @@
 #include "service/lab/torture/random_effects.h"
 
-#include <google/protobuf/descriptor.h>
-#include <google/protobuf/message.h>
+#include <array>
 #include <string>
-#include <vector>
+#include <string_view>
 
-#include "service/scene/effect_names.h"
 #include "service/scene/read_text.h"
-#include "service/scene/scene.h"
 
 namespace bleedsim::lab {
 namespace {
@@ -85,8 +82,37 @@ void addAdhesion(Dice& dice, Effects& effects) {
   effects.mutable_adhesion()->set_acceleration_m_per_s2(dice.overMagnitudes(0.1, 900.0));
 }
 
+/// An effect by its name.
+struct Slot {
+  std::string_view name;
+  bool (Effects::*is_on)() const;
+  void (Effects::*clear)();
+  std::string (*settings)(const Effects&);  ///< as text
+};
+/// All of them, in the order of idl/scene.proto.
+constexpr std::array kSlots{
+    Slot{"gravity", &Effects::has_gravity, &Effects::clear_gravity,
+         [](const Effects& e) { return scene::writeText(e.gravity()); }},
+    Slot{"pressure", &Effects::has_pressure, &Effects::clear_pressure,
+         [](const Effects& e) { return scene::writeText(e.pressure()); }},
+    Slot{"viscosity", &Effects::has_viscosity, &Effects::clear_viscosity,
+         [](const Effects& e) { return scene::writeText(e.viscosity()); }},
+    Slot{"applied_force", &Effects::has_applied_force, &Effects::clear_applied_force,
+         [](const Effects& e) { return scene::writeText(e.applied_force()); }},
+    Slot{"surface_tension", &Effects::has_surface_tension, &Effects::clear_surface_tension,
+         [](const Effects& e) { return scene::writeText(e.surface_tension()); }},
+    Slot{"platelets", &Effects::has_platelets, &Effects::clear_platelets,
+         [](const Effects& e) { return scene::writeText(e.platelets()); }},
+    Slot{"core_radius", &Effects::has_core_radius, &Effects::clear_core_radius,
+         [](const Effects& e) { return scene::writeText(e.core_radius()); }},
+    Slot{"repulsion", &Effects::has_repulsion, &Effects::clear_repulsion,
+         [](const Effects& e) { return scene::writeText(e.repulsion()); }},
+    Slot{"adhesion", &Effects::has_adhesion, &Effects::clear_adhesion,
+         [](const Effects& e) { return scene::writeText(e.adhesion()); }},
+};
+
 /// With settings from the whole of their ranges.
-void addEffect(Dice& dice, const std::string& name, const Scene& scene, Effects& effects) {
+void addEffect(Dice& dice, std::string_view name, const Scene& scene, Effects& effects) {
   const bool literal = scene.model() == Scene::LITERAL;
   if (name == "gravity") addGravity(dice, effects);
   if (name == "pressure") addPressure(dice, literal, effects);
@@ -122,16 +148,13 @@ void addRandomEffects(Dice& dice, bool literal, Scene& scene) {
 }
 
 scene::EffectChange randomChange(Dice& dice, const Scene& scene, Effects& effects) {
-  const std::vector<std::string> known = scene::knownEffects();
-  const std::string& name = known[static_cast<std::size_t>(dice.upTo(static_cast<int>(known.size()) - 1))];
-  const google::protobuf::FieldDescriptor* field = scene::findEffect(name);
-  const google::protobuf::Reflection& reflection = *effects.GetReflection();
-  const bool is_on = reflection.HasField(effects, field);
-  scene::EffectChange change{name, dice.chance(0.85) != is_on, {}};
-  reflection.ClearField(&effects, field);
+  const Slot& slot = kSlots[static_cast<std::size_t>(dice.upTo(static_cast<int>(kSlots.size()) - 1))];
+  const bool is_on = (effects.*slot.is_on)();
+  scene::EffectChange change{std::string{slot.name}, dice.chance(0.85) != is_on, {}};
+  (effects.*slot.clear)();
   if (!change.enabled) return change;
-  addEffect(dice, name, scene, effects);
-  if (dice.chance(0.5)) change.settings = scene::writeText(reflection.GetMessage(effects, field));
+  addEffect(dice, slot.name, scene, effects);
+  if (dice.chance(0.5)) change.settings = slot.settings(effects);
   return change;
 }
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "service/scene/scene.h"
 
@@ -123,6 +126,15 @@ TEST(Torture, placesWoundsInsideTissueAndSeesThemRefused) {
     if (adds && (*world)->apply(timed.command).status().message().find("inside tissue") != std::string::npos) ++refused;
   }
   EXPECT_GE(refused, 1);
+}
+
+TEST(TorturePlan, SwitchesEveryEffectThatThereIs) {
+  std::set<std::string> switched;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    for (const TimedChange& timed : makePlan(seed, Scene::SOUND, 100).changes) switched.insert(timed.change.name);
+  }
+  const std::vector<std::string> known = scene::knownEffects();
+  EXPECT_EQ(switched, std::set<std::string>(known.begin(), known.end()));
 }
 
 // What cannot be switched is refused; everything else takes place.
