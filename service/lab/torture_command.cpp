@@ -42,11 +42,44 @@ Status report(const Arguments& arguments, std::uint64_t index) {
   const std::string failure = runPlan(small).text;
   out << "# Fails: " << failure << "\n" << toText(small);
   out.close();
-  fmt::print("failed: --seed {} --count 1 --steps {} --model {}\n  {}\n  made small: {} particles, {} steps, {} commands: {}\n",
-             seed, arguments.steps, arguments.model, failure, particlesOf(small), small.steps, small.commands.size(),
-             file.string());
+  fmt::print(
+      "failed: --seed {} --count 1 --steps {} --model {}\n  {}\n  made small: {} particles, {} steps, {} commands, {} "
+      "switches: {}\n",
+      seed, arguments.steps, arguments.model, failure, particlesOf(small), small.steps, small.commands.size(),
+      small.changes.size(), file.string());
   if (!out) return {StatusCode::io, "cannot write '" + file.string() + "'"};
   return {};
+}
+
+struct Totals {
+  std::uint64_t ran = 0;
+  std::uint64_t failed = 0;
+  std::uint64_t particle_steps = 0;
+  std::uint64_t switched = 0;
+  std::uint64_t not_switched = 0;
+  decltype(TortureOutcome::counters) counters{};
+
+  void add(const TortureOutcome& outcome) {
+    ++ran;
+    failed += outcome.holds ? 0 : 1;
+    particle_steps += outcome.particle_steps;
+    switched += outcome.switched;
+    not_switched += outcome.not_switched;
+    for (std::size_t k = 0; k < counters.size(); ++k) counters[k] += outcome.counters[k];
+  }
+};
+
+void print(const Totals& totals, std::uint64_t count) {
+  fmt::print(
+      "{} scenes ran, {} refused as invalid, {} failed; {:.1f} million particle-steps; effects switched {} times, {} times "
+      "refused\n",
+      totals.ran, count - totals.ran, totals.failed, 1e-6 * static_cast<double>(totals.particle_steps), totals.switched,
+      totals.not_switched);
+  fmt::print("counted:");
+  for (std::size_t k = 0; k < totals.counters.size(); ++k) {
+    if (totals.counters[k] > 0) fmt::print(" {} {}", sph::counterName(static_cast<sph::Counter>(k)), totals.counters[k]);
+  }
+  fmt::print("\n");
 }
 
 ExitCode run(const Arguments& arguments) {
@@ -56,29 +89,22 @@ ExitCode run(const Arguments& arguments) {
   runSideBySide(
       arguments.count, arguments.threads, [&](std::size_t k) { outcomes[k] = runPlan(planOf(arguments, k)); },
       [&](std::size_t done) { progress.report(static_cast<double>(done) / static_cast<double>(arguments.count)); });
-  std::uint64_t ran = 0;
-  std::uint64_t failed = 0;
-  std::uint64_t particle_steps = 0;
-  std::uint64_t retried = 0;
+  Totals totals;
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     if (outcomes[k].refused) continue;
-    ++ran;
-    particle_steps += outcomes[k].particle_steps;
-    retried += outcomes[k].retried;
+    totals.add(outcomes[k]);
     if (outcomes[k].holds) continue;
-    ++failed;
     if (Status status = report(arguments, k); !status.ok()) return fail(ExitCode::failed, status.message());
   }
-  fmt::print("{} scenes ran, {} refused as invalid, {} failed; {:.1f} million particle-steps, {} steps tried again\n", ran,
-             arguments.count - ran, failed, 1e-6 * static_cast<double>(particle_steps), retried);
-  return failed == 0 ? ExitCode::done : ExitCode::missed;
+  print(totals, arguments.count);
+  return totals.failed == 0 ? ExitCode::done : ExitCode::missed;
 }
 
 }  // namespace
 
 void addTortureCommand(CLI::App& app, Context& context) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("torture", "Run random scenes and commands; make small what fails");
+  CLI::App* command = app.add_subcommand("torture", "Run random scenes, commands and switches of effects; make small what fails");
   command->add_option("--seed", arguments->seed, "Of the first scene; the next ones count up from it")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
@@ -93,8 +119,8 @@ void addTortureCommand(CLI::App& app, Context& context) {
       ->type_name("DIR");
   command->footer(
       "After every step: everything finite, nothing deeper in tissue than 0.1 spacings, count = injected - removed, no speed\n"
-      "beyond the bound, every clamp counted; refused commands leave no trace. Exit code 1: a scene failed, its seed is "
-      "printed.");
+      "beyond the bound, every clamp counted; refused commands leave no trace, switched effects leave the motion as it is.\n"
+      "Exit code 1: a scene failed, its seed is printed.");
   command->callback([arguments, &context] { context.action = [arguments] { return run(*arguments); }; });
 }
 

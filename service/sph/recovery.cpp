@@ -26,6 +26,7 @@ double WorldCore<Real>::recover(double dt, Trouble trouble) {
     faulted_ = true;
     return dt;
   }
+  counter(Counter::infinite_force_capped) += kick.capped;
   counter(Counter::particle_frozen) += kick.frozen;
   return dt;
 }

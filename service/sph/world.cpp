@@ -26,9 +26,9 @@ constexpr std::uint32_t kMostForceSources = 65'536;
 constexpr std::array<std::string_view, static_cast<std::size_t>(Stage::count)> kStageNames{
     "emit", "move", "neighbors", "tissue", "density", "force", "body", "integrate"};
 constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::count)> kCounterNames{
-    "speed_clamped",     "acceleration_clamped", "tissue_projected",    "left_domain",   "emission_refused",
-    "inlet_withdrawn",   "neighbor_overflow",    "force_without_fluid", "force_expired", "viscosity_unsolved",
-    "coincident_parted", "step_retried",         "particle_frozen"};
+    "speed_clamped",     "acceleration_clamped", "tissue_projected",      "left_domain",    "emission_refused",
+    "inlet_withdrawn",   "neighbor_overflow",    "force_without_fluid",   "force_expired",  "viscosity_unsolved",
+    "coincident_parted", "step_retried",         "infinite_force_capped", "particle_frozen"};
 
 Status invalid(std::string message) { return {StatusCode::invalid_argument, std::move(message)}; }
 

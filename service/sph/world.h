@@ -40,19 +40,20 @@ std::string_view stageName(Stage stage);
 
 /// Everything that is counted. Each rises only.
 enum class Counter {
-  speed_clamped,         ///< particle-steps at which |v| was cut to v_cap = 2 c0
-  acceleration_clamped,  ///< particle-steps at which |a| was cut to its bound
-  tissue_projected,      ///< particles found behind tissue and put back
-  left_domain,           ///< particles removed at the domain's sides
-  emission_refused,      ///< particles that a wound could not emit because the world is at capacity
-  inlet_withdrawn,       ///< particles of a wound's throat taken back, never emitted (wound moved or removed)
-  neighbor_overflow,     ///< particle-steps beyond the neighbour list, handled by the slow path
-  force_without_fluid,   ///< source-steps with no particle within reach
-  force_expired,         ///< force sources that ended by their time
-  viscosity_unsolved,    ///< steps whose implicit viscosity did not reach its tolerance
-  coincident_parted,     ///< particles that stood on another one's spot and were set apart
-  step_retried,          ///< steps taken back and tried with half the time (service/sph/recovery.h)
-  particle_frozen,       ///< particle-steps without a finite force: stopped where they were
+  speed_clamped,          ///< particle-steps at which |v| was cut to v_cap = 2 c0
+  acceleration_clamped,   ///< particle-steps at which |a| was cut to its bound
+  tissue_projected,       ///< particles found behind tissue and put back
+  left_domain,            ///< particles removed at the domain's sides
+  emission_refused,       ///< particles that a wound could not emit because the world is at capacity
+  inlet_withdrawn,        ///< particles of a wound's throat taken back, never emitted (wound moved or removed)
+  neighbor_overflow,      ///< particle-steps beyond the neighbour list, handled by the slow path
+  force_without_fluid,    ///< source-steps with no particle within reach
+  force_expired,          ///< force sources that ended by their time
+  viscosity_unsolved,     ///< steps whose implicit viscosity did not reach its tolerance
+  coincident_parted,      ///< particles that stood on another one's spot and were set apart
+  step_retried,           ///< steps taken back and tried with half the time (service/sph/recovery.h)
+  infinite_force_capped,  ///< particle-steps of such a step at which an infinite force was capped; no acceleration_clamped
+  particle_frozen,        ///< particle-steps without a finite force: stopped where they were
   count
 };
 std::string_view counterName(Counter counter);

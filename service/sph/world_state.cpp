@@ -14,7 +14,7 @@
 namespace bleedsim::sph {
 namespace {
 
-constexpr std::uint64_t kStateMark = 0x32305753'44454c42u;  // "BLEDSW02"
+constexpr std::uint64_t kStateMark = 0x33305753'44454c42u;  // "BLEDSW03"
 
 // Velocities are capped at 2 c0 and then only slowed down; this leaves room for rounding.
 constexpr double kMostSpeed = 4.0;

@@ -13,8 +13,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::uint64_t clampsOf(const Trial& trial) {
-  return trial.counted(sph::Counter::acceleration_clamped) + trial.counted(sph::Counter::speed_clamped) +
-         trial.counted(sph::Counter::tissue_projected);
+  return trial.counted(sph::Counter::acceleration_clamped) + trial.counted(sph::Counter::infinite_force_capped) +
+         trial.counted(sph::Counter::speed_clamped) + trial.counted(sph::Counter::tissue_projected);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "service/lab/torture/torture_plan.h"
@@ -41,6 +42,15 @@ std::string textOf(const sph::Command& command) {
                      textOf(wound.drive));
 }
 
+/// In one line, which a comment is.
+std::string textOf(const scene::EffectChange& change) {
+  std::string text = fmt::format("effect {} {}", change.name, change.enabled ? "on" : "off");
+  if (change.settings.empty()) return text;
+  std::string settings = change.settings;
+  std::replace(settings.begin(), settings.end(), '\n', ' ');
+  return text + fmt::format(" with {{ {}}}", settings);
+}
+
 }  // namespace
 
 std::string toText(const TorturePlan& plan) {
@@ -48,6 +58,7 @@ std::string toText(const TorturePlan& plan) {
                                  plan.precision == sph::Precision::float32 ? "float32" : "double");
   for (const TimedCommand& timed : plan.commands)
     text += fmt::format("# before step {}: {}\n", timed.step, textOf(timed.command));
+  for (const TimedChange& timed : plan.changes) text += fmt::format("# before step {}: {}\n", timed.step, textOf(timed.change));
   for (const TimedLimit& timed : plan.limits)
     text += fmt::format("# before step {}: steps of at most {:.17g} s\n", timed.step, timed.limit);
   return text + scene::writeText(plan.scene);

@@ -1,5 +1,11 @@
 #include "service/lab/torture/random_effects.h"
 
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "service/scene/read_text.h"
+
 namespace bleedsim::lab {
 namespace {
 
@@ -16,7 +22,16 @@ void addGravity(Dice& dice, Effects& effects) {
   gravity.mutable_acceleration_m_per_s2()->set_z(g.z());
 }
 
-/// `thickest` fresh blood that platelets may thicken, Pa s.
+void addPressure(Dice& dice, bool literal, Effects& effects) {
+  scene::Pressure& pressure = *effects.mutable_pressure();
+  if (!literal && dice.chance(0.15)) pressure.set_form(scene::Pressure::SYMMETRIC);
+  if (!literal && dice.chance(0.1)) pressure.set_background_pressure_pa(dice.overMagnitudes(1.0, 1e4));
+}
+
+/// Of fresh blood that platelets may thicken, or that they are not in, Pa s.
+constexpr double thickestBlood(bool platelets) { return platelets ? 0.5 : 200.0; }
+
+/// `thickest` fresh blood that the law may give, Pa s.
 void addViscosity(Dice& dice, bool literal, double thickest, Effects& effects) {
   scene::Viscosity& viscosity = *effects.mutable_viscosity();
   const int law = literal ? dice.upTo(1) : dice.upTo(3);
@@ -63,32 +78,84 @@ void addCoreRadius(Dice& dice, bool literal, Effects& effects) {
   radius.set_relaxation(dice.overMagnitudes(1e-3, 1.0));
 }
 
+void addAdhesion(Dice& dice, Effects& effects) {
+  effects.mutable_adhesion()->set_acceleration_m_per_s2(dice.overMagnitudes(0.1, 900.0));
+}
+
+/// An effect by its name.
+struct Slot {
+  std::string_view name;
+  bool (Effects::*is_on)() const;
+  void (Effects::*clear)();
+  std::string (*settings)(const Effects&);  ///< as text
+};
+/// All of them, in the order of idl/scene.proto.
+constexpr std::array kSlots{
+    Slot{"gravity", &Effects::has_gravity, &Effects::clear_gravity,
+         [](const Effects& e) { return scene::writeText(e.gravity()); }},
+    Slot{"pressure", &Effects::has_pressure, &Effects::clear_pressure,
+         [](const Effects& e) { return scene::writeText(e.pressure()); }},
+    Slot{"viscosity", &Effects::has_viscosity, &Effects::clear_viscosity,
+         [](const Effects& e) { return scene::writeText(e.viscosity()); }},
+    Slot{"applied_force", &Effects::has_applied_force, &Effects::clear_applied_force,
+         [](const Effects& e) { return scene::writeText(e.applied_force()); }},
+    Slot{"surface_tension", &Effects::has_surface_tension, &Effects::clear_surface_tension,
+         [](const Effects& e) { return scene::writeText(e.surface_tension()); }},
+    Slot{"platelets", &Effects::has_platelets, &Effects::clear_platelets,
+         [](const Effects& e) { return scene::writeText(e.platelets()); }},
+    Slot{"core_radius", &Effects::has_core_radius, &Effects::clear_core_radius,
+         [](const Effects& e) { return scene::writeText(e.core_radius()); }},
+    Slot{"repulsion", &Effects::has_repulsion, &Effects::clear_repulsion,
+         [](const Effects& e) { return scene::writeText(e.repulsion()); }},
+    Slot{"adhesion", &Effects::has_adhesion, &Effects::clear_adhesion,
+         [](const Effects& e) { return scene::writeText(e.adhesion()); }},
+};
+
+/// With settings from the whole of their ranges.
+void addEffect(Dice& dice, std::string_view name, const Scene& scene, Effects& effects) {
+  const bool literal = scene.model() == Scene::LITERAL;
+  if (name == "gravity") addGravity(dice, effects);
+  if (name == "pressure") addPressure(dice, literal, effects);
+  if (name == "viscosity") addViscosity(dice, literal, thickestBlood(effects.has_platelets()), effects);
+  if (name == "applied_force") effects.mutable_applied_force();
+  if (name == "surface_tension") addTension(dice, literal, scene.tissue_size() > 0, effects);
+  if (name == "platelets") addPlatelets(dice, literal, effects);
+  if (name == "core_radius") addCoreRadius(dice, literal, effects);
+  if (name == "repulsion") addRepulsion(dice, literal, effects);
+  if (name == "adhesion") addAdhesion(dice, effects);
+}
+
 }  // namespace
 
 void addRandomEffects(Dice& dice, bool literal, Scene& scene) {
   Effects& effects = *scene.mutable_effects();
   const bool tissue = scene.tissue_size() > 0;
   if (dice.chance(0.8)) addGravity(dice, effects);
-  if (dice.chance(0.9)) {
-    effects.mutable_pressure();
-    if (!literal && dice.chance(0.15)) effects.mutable_pressure()->set_form(scene::Pressure::SYMMETRIC);
-    if (!literal && dice.chance(0.1)) effects.mutable_pressure()->set_background_pressure_pa(dice.overMagnitudes(1.0, 1e4));
-  }
+  if (dice.chance(0.9)) addPressure(dice, literal, effects);
   const bool platelets = dice.chance(0.35);
-  if (platelets || dice.chance(0.8)) addViscosity(dice, literal, platelets ? 0.5 : 200.0, effects);
+  if (platelets || dice.chance(0.8)) addViscosity(dice, literal, thickestBlood(platelets), effects);
   if (platelets) addPlatelets(dice, literal, effects);
   if (dice.chance(0.4)) addTension(dice, literal, tissue, effects);
   if (dice.chance(0.35)) addCoreRadius(dice, literal, effects);
   if (dice.chance(0.35)) addRepulsion(dice, literal, effects);
   if (dice.chance(0.7)) effects.mutable_applied_force();
-  if (tissue && !literal && dice.chance(0.3)) {
-    effects.mutable_adhesion()->set_acceleration_m_per_s2(dice.overMagnitudes(0.1, 900.0));
-  }
+  if (tissue && !literal && dice.chance(0.3)) addAdhesion(dice, effects);
   for (scene::FluidBlock& block : *scene.mutable_fluid_blocks()) {
     if (effects.has_viscosity() && dice.chance(0.25))
-      block.set_viscosity_pa_s(dice.overMagnitudes(1e-4, platelets ? 0.5 : 200.0));
+      block.set_viscosity_pa_s(dice.overMagnitudes(1e-4, thickestBlood(platelets)));
     if (platelets && dice.chance(0.4)) block.set_platelet(dice.part());
   }
+}
+
+scene::EffectChange randomChange(Dice& dice, const Scene& scene, Effects& effects) {
+  const Slot& slot = kSlots[static_cast<std::size_t>(dice.upTo(static_cast<int>(kSlots.size()) - 1))];
+  const bool is_on = (effects.*slot.is_on)();
+  scene::EffectChange change{std::string{slot.name}, dice.chance(0.85) != is_on, {}};
+  (effects.*slot.clear)();
+  if (!change.enabled) return change;
+  addEffect(dice, slot.name, scene, effects);
+  if (dice.chance(0.5)) change.settings = slot.settings(effects);
+  return change;
 }
 
 }  // namespace bleedsim::lab

@@ -24,6 +24,8 @@ class Shrinker {
     smaller |= halveSteps();
     smaller |= dropEach([](TorturePlan& plan) { return static_cast<int>(plan.commands.size()); },
                         [](TorturePlan& plan, int k) { plan.commands.erase(plan.commands.begin() + k); });
+    smaller |= dropEach([](TorturePlan& plan) { return static_cast<int>(plan.changes.size()); },
+                        [](TorturePlan& plan, int k) { plan.changes.erase(plan.changes.begin() + k); });
     smaller |= dropEach([](TorturePlan& plan) { return static_cast<int>(plan.limits.size()); },
                         [](TorturePlan& plan, int k) { plan.limits.erase(plan.limits.begin() + k); });
     smaller |= dropEffects();
@@ -108,6 +110,9 @@ class Shrinker {
     simplify(plan_.scene.has_max_dt_s(), [](TorturePlan& plan) { plan.scene.clear_max_dt_s(); });
     simplify(plan_.scene.resolution().has_support_ratio(),
              [](TorturePlan& plan) { plan.scene.mutable_resolution()->clear_support_ratio(); });
+    for (std::size_t k = 0; k < plan_.changes.size(); ++k) {
+      simplify(!plan_.changes[k].change.settings.empty(), [k](TorturePlan& plan) { plan.changes[k].change.settings.clear(); });
+    }
     for (int k = 0; k < plan_.scene.fluid_blocks_size(); ++k) {
       const scene::FluidBlock& block = plan_.scene.fluid_blocks(k);
       simplify(block.jitter() != 0.0, [k](TorturePlan& plan) { plan.scene.mutable_fluid_blocks(k)->clear_jitter(); });

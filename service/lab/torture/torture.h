@@ -1,6 +1,8 @@
 // Runs random scenes, checks what must always hold, and makes the scene small that breaks it.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -13,7 +15,9 @@ struct TortureOutcome {
   bool holds = true;
   std::string text;  ///< what did not hold
   std::uint64_t particle_steps = 0;
-  std::uint64_t retried = 0;  ///< Counter::step_retried
+  std::uint64_t switched = 0;      ///< changes of effects that were taken
+  std::uint64_t not_switched = 0;  ///< that were refused
+  std::array<std::uint64_t, static_cast<std::size_t>(sph::Counter::count)> counters{};
 };
 
 /// What always holds is checked after every step. The literal model may fault, a sound world must not.

@@ -35,6 +35,8 @@ class Maker {
     makeWounds();
     makeCommands();
     if (dice_.chance(0.1)) scene_.set_max_dt_s(dice_.overMagnitudes(1e-7, 1e-3));
+    // Last, so that what a seed has brought before stays.
+    makeChanges();
   }
 
  private:
@@ -191,6 +193,14 @@ class Maker {
     const int wounds = onAPlane() ? dice_.upTo(2) : 0;
     for (int k = 0; k < wounds; ++k) plan_.commands.push_back({dice_.upTo(std::max(1, plan_.steps - 1)), newWound()});
     std::stable_sort(plan_.commands.begin(), plan_.commands.end(), earlier);
+  }
+
+  void makeChanges() {
+    std::vector<int> steps(static_cast<std::size_t>(dice_.upTo(4)));
+    for (int& step : steps) step = dice_.upTo(std::max(1, plan_.steps - 1));
+    std::sort(steps.begin(), steps.end());
+    scene::Effects effects = scene_.effects();
+    for (const int step : steps) plan_.changes.push_back({step, randomChange(dice_, scene_, effects)});
   }
 
   sph::Command command() {

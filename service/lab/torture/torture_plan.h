@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "idl/scene.pb.h"
+#include "service/scene/change_effect.h"
 #include "service/sph/command.h"
 #include "service/sph/world.h"
 
@@ -15,6 +16,12 @@ namespace bleedsim::lab {
 struct TimedCommand {
   int step = 0;
   sph::Command command;
+};
+
+/// An effect is switched, or gets other settings, before a step.
+struct TimedChange {
+  int step = 0;
+  scene::EffectChange change;
 };
 
 /// From a step on, steps are asked to be no longer than this.
@@ -27,6 +34,7 @@ struct TorturePlan {
   std::uint64_t seed = 0;
   scene::Scene scene;
   std::vector<TimedCommand> commands;
+  std::vector<TimedChange> changes;  ///< after the commands of their steps
   std::vector<TimedLimit> limits;
   int steps = 0;
   int threads = 1;
@@ -36,7 +44,7 @@ struct TorturePlan {
 /// The same for the same seed on every machine.
 TorturePlan makePlan(std::uint64_t seed, scene::Scene::Model model, int steps);
 
-/// The scene as text that bleedd reads, behind the plan's commands as comments.
+/// The scene as text that bleedd reads, behind the plan's commands and switches as comments.
 std::string toText(const TorturePlan& plan);
 
 std::uint64_t particlesOf(const TorturePlan& plan);  ///< that its blocks seed, about

@@ -106,6 +106,7 @@ struct alignas(64) KickResult {
   std::uint64_t acceleration_clamped = 0;
   bool finite = true;
   std::uint32_t free = 0;    ///< particles that no wound drives; counted by guardedKick only (recovery.h)
+  std::uint32_t capped = 0;  ///< of them, with an infinite force that guardedKick made finite
   std::uint32_t frozen = 0;  ///< of them, stopped by guardedKick
 
   void merge(const KickResult& other) {
@@ -115,6 +116,7 @@ struct alignas(64) KickResult {
     acceleration_clamped += other.acceleration_clamped;
     finite = finite && other.finite;
     free += other.free;
+    capped += other.capped;
     frozen += other.frozen;
   }
 };

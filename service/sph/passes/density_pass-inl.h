@@ -169,7 +169,9 @@ class DensityPass {
       L::compress(L::idRow(j * stride_, stride_), near, ids_ + count);
       count += L::countTrue(near);
     }
+    // What fills the last vector is out of reach, whatever the other coordinates there are.
     L::storeUnaligned(L::set(Real(1e6)), x_ + count);
+    if constexpr (kRadius == SupportRadius::mean) L::storeUnaligned(zero, reach2_ + count);
     candidates_ = count;
     return true;
   }

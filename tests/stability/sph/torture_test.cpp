@@ -1,4 +1,5 @@
-// Random scenes from a fixed seed: what must always hold does. bleedlab torture runs any number of others.
+// Random scenes from a fixed seed, with effects that are switched while they run: what must always hold does. bleedlab torture
+// runs any number of others.
 #include "service/lab/torture/torture.h"
 
 #include <cstdio>
@@ -19,11 +20,14 @@ TEST_P(TortureTest, randomScenesKeepWhatMustAlwaysHold) {
   const std::uint64_t first = kSeed + static_cast<std::uint64_t>(GetParam() * kScenesOfAPart);
   std::printf("torture: seeds %llu and the %d after it\n", static_cast<unsigned long long>(first), kScenesOfAPart - 1);
   int refused = 0;
+  std::uint64_t switched = 0;
   for (std::uint64_t seed = first; seed < first + kScenesOfAPart; ++seed) {
     const TortureOutcome outcome = runPlan(makePlan(seed, scene::Scene::SOUND, kSteps));
     EXPECT_TRUE(outcome.refused || outcome.holds) << "seed " << seed << ": " << outcome.text;
     if (outcome.refused) ++refused;
+    switched += outcome.switched;
   }
+  EXPECT_GT(switched, static_cast<std::uint64_t>(kScenesOfAPart)) << "two for each scene are drawn, and most of them can be";
   EXPECT_LT(refused, kScenesOfAPart / 4) << "most scenes must be valid to be worth it";
 }
 

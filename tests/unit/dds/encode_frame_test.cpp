@@ -90,6 +90,7 @@ TEST(FrameStatsEncoder, ConvertsAndNamesEverything) {
   snapshot.stats.emitted_volume = 2e-6;
   snapshot.stats.commanded_volume = 3e-6;
   snapshot.stats.counters[static_cast<std::size_t>(sph::Counter::left_domain)] = 4;
+  snapshot.stats.counters[static_cast<std::size_t>(sph::Counter::infinite_force_capped)] = 2;
   snapshot.stage_microseconds[static_cast<std::size_t>(sph::Stage::density)] = 250.0;
   snapshot.wounds = {{1, 1e-6, 2e-6}};
   snapshot.instruments[0] = {Uuid{3}, 8, 900, 11};
@@ -109,6 +110,9 @@ TEST(FrameStatsEncoder, ConvertsAndNamesEverything) {
   ASSERT_EQ(stats.fault_counters._length, static_cast<std::uint32_t>(sph::Counter::count) + 1);
   EXPECT_STREQ(stats.fault_counters._buffer[stats.fault_counters._length - 1].name, "requests_refused");
   EXPECT_EQ(stats.fault_counters._buffer[static_cast<std::size_t>(sph::Counter::left_domain)].value, 4U);
+  const bleed_v1_Counter& rung = stats.fault_counters._buffer[static_cast<std::size_t>(sph::Counter::infinite_force_capped)];
+  EXPECT_STREQ(rung.name, "infinite_force_capped");
+  EXPECT_EQ(rung.value, 2U);
   ASSERT_EQ(stats.instruments._length, 1U);
   EXPECT_EQ(stats.instruments._buffer[0].client_stamp_ns, 900);
 }

@@ -1,7 +1,11 @@
 // A plan that fails is made small; what a failure needs stays.
 #include "service/lab/torture/torture.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "service/scene/scene.h"
 
@@ -38,6 +42,7 @@ TEST(Shrink, leavesOnlyWhatTheFailureNeeds) {
   EXPECT_FALSE(small.scene.effects().has_pressure());
   EXPECT_FALSE(small.scene.effects().has_viscosity());
   EXPECT_TRUE(small.commands.empty());
+  EXPECT_TRUE(small.changes.empty());
   EXPECT_TRUE(small.limits.empty());
   EXPECT_EQ(small.scene.wounds_size(), 0);
   EXPECT_EQ(small.scene.tissue_size(), 0);
@@ -63,6 +68,23 @@ TEST(Shrink, keepsTheOneCommandThatMatters) {
   const TorturePlan small = shrink(rich, fails);
   ASSERT_EQ(small.commands.size(), 1u);
   EXPECT_TRUE(fails(small));
+}
+
+TEST(Shrink, keepsTheOneSwitchThatMattersWithoutItsSettings) {
+  const TorturePlan rich = planThat([](const TorturePlan& plan) {
+    return plan.changes.size() >= 3 && plan.changes[1].change.enabled && !plan.changes[1].change.settings.empty();
+  });
+  const TimedChange wanted = rich.changes[1];
+  const auto fails = [&](const TorturePlan& plan) {
+    const auto same = [&](const TimedChange& timed) {
+      return timed.step == wanted.step && timed.change.name == wanted.change.name && timed.change.enabled;
+    };
+    return std::any_of(plan.changes.begin(), plan.changes.end(), same);
+  };
+  const TorturePlan small = shrink(rich, fails);
+  ASSERT_EQ(small.changes.size(), 1u);
+  EXPECT_TRUE(fails(small));
+  EXPECT_EQ(small.changes.front().change.settings, "");
 }
 
 TEST(Shrink, stopsWhenItsTriesAreSpent) {
@@ -106,16 +128,47 @@ TEST(Torture, placesWoundsInsideTissueAndSeesThemRefused) {
   EXPECT_GE(refused, 1);
 }
 
-// What is written is a scene of its own, which bleedd and bleedlab read; the commands stand in front of it.
+TEST(TorturePlan, SwitchesEveryEffectThatThereIs) {
+  std::set<std::string> switched;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    for (const TimedChange& timed : makePlan(seed, Scene::SOUND, 100).changes) switched.insert(timed.change.name);
+  }
+  const std::vector<std::string> known = scene::knownEffects();
+  EXPECT_EQ(switched, std::set<std::string>(known.begin(), known.end()));
+}
+
+// What cannot be switched is refused; everything else takes place.
+TEST(Torture, switchesEffectsAsASessionDoes) {
+  TorturePlan plan = planThat([](const TorturePlan& some) {
+    const scene::Effects& effects = some.scene.effects();
+    const bool bare = !effects.has_viscosity() && !effects.has_repulsion() && some.scene.tissue_size() == 0;
+    return bare && some.changes.empty() && !runPlan(some).refused;
+  });
+  plan.changes = {{10, {"repulsion", true, {}}},
+                  {20, {"adhesion", true, {}}},
+                  {20, {"repulsion", false, {}}},
+                  {30, {"viscosity", true, "viscosity_pa_s: 0.02"}},
+                  {40, {"viscosity", true, "viscosity_pa_s: -1"}}};
+  const TortureOutcome outcome = runPlan(plan);
+  EXPECT_TRUE(outcome.holds) << outcome.text;
+  EXPECT_EQ(outcome.switched, 3u);
+  EXPECT_EQ(outcome.not_switched, 2u) << "no tissue to stick to, no viscosity below zero";
+}
+
+// What is written is a scene of its own, which bleedd and bleedlab read; commands and switches stand in front of it.
 TEST(PlanText, isASceneWithItsCommands) {
-  const TorturePlan rich = planThat([](const TorturePlan& plan) { return isRich(plan) && !runPlan(plan).refused; });
+  const TorturePlan rich = planThat([](const TorturePlan& plan) {
+    const bool switches = std::any_of(plan.changes.begin(), plan.changes.end(),
+                                      [](const TimedChange& timed) { return timed.change.settings.size() > 40; });
+    return isRich(plan) && switches && !runPlan(plan).refused;
+  });
   const std::string text = toText(rich);
   const auto parsed = scene::parseScene(text);
   ASSERT_TRUE(parsed.ok()) << parsed.status().message();
   EXPECT_EQ(parsed->world.fluid_blocks.size(), static_cast<std::size_t>(rich.scene.fluid_blocks_size()));
   std::size_t lines = 0;
   for (std::size_t at = text.find("# before step"); at != std::string::npos; at = text.find("# before step", at + 1)) ++lines;
-  EXPECT_EQ(lines, rich.commands.size() + rich.limits.size());
+  EXPECT_EQ(lines, rich.commands.size() + rich.changes.size() + rich.limits.size());
 }
 
 }  // namespace

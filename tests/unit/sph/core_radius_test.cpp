@@ -2,7 +2,9 @@
 #include "service/sph/effects/core_radius.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -214,6 +216,34 @@ TEST(CoreRadius, ARadiusThatMayNotChangeIsTheEffectSwitchedOff) {
   ASSERT_EQ(with->particleCount(), static_cast<std::uint32_t>(counts[0] * counts[1] * counts[2]));
   EXPECT_NEAR(test::statsOf(*with).kinetic_energy, test::statsOf(*without).kinetic_energy,
               1e-9 * test::statsOf(*without).kinetic_energy);
+}
+
+/// Leaves zeros on the stack, under what is called next, but for the given 64 bytes of each page: numbers that are large in float
+/// and in double.
+[[gnu::noinline]] void soilTheStack(std::size_t bytes_of_a_page) {
+  struct alignas(4096) Pages {
+    std::array<std::array<std::uint32_t, 1024>, 256> words;
+  } pages;
+  for (auto& page : pages.words) {
+    volatile std::uint32_t* const written = page.data();
+    for (std::size_t k = 0; k < page.size(); ++k) written[k] = k / 16 == bytes_of_a_page ? 0x56565656u : 0u;
+  }
+}
+
+// The search fills its candidates up to a whole vector, with places that are far: but not further than such a number, were it
+// what the filling's reach is read from.
+TEST(CoreRadius, ASearchReadsNothingThatItDidNotWrite) {
+  for (const Precision precision : {Precision::float32, Precision::float64}) {
+    const WorldDescription scene = withCoreRadius(test::freeBlock({3, 3, 3}, 0.2));
+    const auto soiled = test::makeWorld(scene, {.precision = precision});
+    const auto clean = test::makeWorld(scene, {.precision = precision});
+    for (std::size_t bytes = 0; bytes < 64; ++bytes) {
+      soilTheStack(bytes);
+      ASSERT_TRUE(soiled->step(1.0).ok());
+    }
+    run(*clean, 64);
+    EXPECT_EQ(soiled->stateHash(), clean->stateHash());
+  }
 }
 
 TEST(CoreRadius, OfAFrameWithoutTheEffectIsTheSupportRadius) {

@@ -156,6 +156,7 @@ TYPED_TEST(Recovery, freezesTheOffenderAlone) {
   EXPECT_FALSE(world->faulted());
   EXPECT_EQ(test::counterOf(*world, Counter::step_retried), 4u);
   EXPECT_EQ(test::counterOf(*world, Counter::particle_frozen), 1u);
+  EXPECT_EQ(test::counterOf(*world, Counter::infinite_force_capped), 0u);
   EXPECT_EQ(world->particleCount(), 216u);
   const FrameBuffer frame = test::frameOf(*world);
   for (std::size_t i = 0; i < frame.count; ++i) {
@@ -172,10 +173,22 @@ TYPED_TEST(Recovery, capsAnInfiniteForce) {
   ASSERT_TRUE(world->step(kAnyStep).ok());
   const WorldStats stats = test::statsOf(*world);
   EXPECT_EQ(test::counterOf(*world, Counter::particle_frozen), 0u);
-  EXPECT_EQ(test::counterOf(*world, Counter::acceleration_clamped), 1u);
+  EXPECT_EQ(test::counterOf(*world, Counter::infinite_force_capped), 1u);
+  EXPECT_EQ(test::counterOf(*world, Counter::acceleration_clamped), 0u) << "a rung is counted apart";
   const double cap = kAccelerationBound * world->speedOfSound() * world->speedOfSound() / test::kSpacing;
   const double expected = -world->particleMass() * 0.5 * cap * stats.dt;
   EXPECT_NEAR(stats.momentum.x() / expected, 1.0, 1e-4);
+}
+
+// A finite force beyond its bound is cut in every attempt, which is no rung of the ladder.
+TYPED_TEST(Recovery, clampsAFiniteForceWithoutTheLadder) {
+  PoisonedWorld<TypeParam> world{test::freeBlock({6, 6, 6})};
+  const double cap = kAccelerationBound * world->speedOfSound() * world->speedOfSound() / test::kSpacing;
+  poisonPasses<TypeParam>(6, 40, 43, static_cast<TypeParam>(3.0 * cap));
+  ASSERT_TRUE(world->step(kAnyStep).ok());
+  EXPECT_EQ(test::counterOf(*world, Counter::acceleration_clamped), 3u);
+  EXPECT_EQ(test::counterOf(*world, Counter::infinite_force_capped), 0u);
+  EXPECT_EQ(test::counterOf(*world, Counter::particle_frozen), 0u);
 }
 
 // Nothing left that moves: the world is faulted and shows the state before the step, its counters included.
