@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "service/build/build_info.h"
 #include "service/sph/world.h"
 
 namespace bleedsim::lab {
@@ -40,7 +41,8 @@ Machine thisMachine() {
   machine.processor = processorName();
   machine.cores = static_cast<int>(std::thread::hardware_concurrency());
   machine.simd = sph::simdTargetName(sph::availableSimdTargets().front());
-  machine.version = BLEEDSIM_VERSION;
+  const std::string build = buildId();
+  machine.version = build.substr(0, build.find(' '));
   machine.date = today();
   if (getloadavg(&machine.load, 1) != 1) machine.load = 0.0;
   return machine;

@@ -10,7 +10,7 @@ struct Machine {
   std::string processor;  ///< as the system names it
   int cores = 0;          ///< that the system offers
   std::string simd;       ///< that the solver chooses
-  std::string version;    ///< of bleedsim
+  std::string version;    ///< of bleedsim, with the revision of its sources
   std::string date;       ///< UTC, YYYY-MM-DD
   double load = 0.0;      ///< mean number of runnable tasks over the last minute: others shared the machine if it is large
 };
