@@ -27,6 +27,7 @@ constexpr double kDefaultHorizon = 5.0;     // s
 constexpr double kCoarseParticles = 300.0;  // at the horizon, of the two runs of a calibration
 constexpr double kFineParticles = 1000.0;
 constexpr double kTensionSupport = 2.5;  // below it drops boil
+constexpr double kTrusted = 0.2;         // part of the predicted time by which the measured one may differ
 // What a scene can do without; gravity, pressure, viscosity and the forces of instruments it cannot.
 constexpr std::array kOptional{"core_radius", "repulsion", "adhesion", "platelets", "surface_tension"};
 
@@ -104,6 +105,8 @@ class Chooser {
 
   const std::string& text() const { return chosen_->normalized_text; }
   void print() const;
+  /// Measured over predicted.
+  double timeRatio() const { return measured_.frame_ms / choice_.time.milliseconds; }
   nlohmann::json toJson() const;
 
  private:
@@ -212,6 +215,7 @@ void Chooser::print() const {
     fmt::print("{:<38} {:>12.4g} {:>12.4g} {}\n", name, predicted, measured, unit);
   };
   row("a frame at the horizon", choice_.time.milliseconds, measured_.frame_ms, arguments_.threads == 1 ? "ms of CPU time" : "ms");
+  fmt::print("{:<38} {:>25.3f}\n", "  measured over predicted", timeRatio());
   row("particles", choice_.time.particles, measured_.particles, "");
   row("steps in a frame", choice_.time.steps, 1.0 / (measured_.dt * chosen_->frame_rate), "");
   row("time per particle and step", choice_.time.microseconds, measured_.microseconds, "us");
@@ -231,6 +235,7 @@ nlohmann::json Chooser::toJson() const {
           {"mach_factor", choice_.mach_factor},
           {"effects", chosen_->effects},
           {"left_out", left_out_},
+          {"measured_over_predicted_time", timeRatio()},
           {"predicted",
            {{"frame_ms", choice_.time.milliseconds},
             {"particles", choice_.time.particles},
@@ -277,6 +282,12 @@ ExitCode run(const Arguments& arguments) {
       return fail(ExitCode::failed, status.message());
   }
   if (arguments.json != "-") chooser.print();
+  if (std::abs(chooser.timeRatio() - 1.0) > kTrusted) {
+    fmt::print(stderr,
+               "the measured time is {:.2f} of the predicted one: other programs took time from one of the two; let the machine "
+               "come to rest and choose again\n",
+               chooser.timeRatio());
+  }
   if (Status status = writeJson(arguments.json, chooser.toJson()); !status.ok()) return fail(ExitCode::failed, status.message());
   return ExitCode::done;
 }

@@ -15,6 +15,10 @@ namespace bleedsim::sph {
 /// Storage that is too large to be touched before it is used.
 struct Uninitialized {};
 
+/// Storage that is read and written all the time: in one huge page, where the system has them, however small it is. In pages from
+/// all over the memory it is luck whether they fall into the same sets of the second-level cache.
+struct HugePage {};
+
 /// `size` elements of a trivial type, zeroed unless told otherwise, aligned to 64 bytes, readable and writable 64 bytes (16
 /// floats) past the end. `lane` shifts the start by whole cache lines: a dozen arrays that are equal modulo 4 KB would fight for
 /// the same cache sets.
@@ -26,6 +30,7 @@ class AlignedArray {
   AlignedArray() = default;
   explicit AlignedArray(std::size_t size, unsigned lane = 0) { std::memset(allocate(size, lane), 0, bytesFor(size, lane)); }
   AlignedArray(std::size_t size, unsigned lane, Uninitialized) { allocate(size, lane); }
+  AlignedArray(std::size_t size, HugePage) { allocateIn(kHugePage, size, 0); }
   AlignedArray(AlignedArray&& other) noexcept { swap(other); }
   AlignedArray& operator=(AlignedArray&& other) noexcept {
     swap(other);
@@ -60,14 +65,14 @@ class AlignedArray {
   static std::size_t offsetOf(unsigned lane) { return 64 * ((lane * 7) % 61); }
   static std::size_t neededFor(std::size_t size, unsigned lane) { return offsetOf(lane) + size * sizeof(T) + kPadding; }
   static std::size_t pageOf(std::size_t needed) { return needed < kLarge ? kPage : kHugePage; }
+  static std::size_t roundedTo(std::size_t page, std::size_t needed) { return (needed + page - 1) / page * page; }
   static std::size_t bytesFor(std::size_t size, unsigned lane) {
     const std::size_t needed = neededFor(size, lane);
-    const std::size_t page = pageOf(needed);
-    return (needed + page - 1) / page * page;
+    return roundedTo(pageOf(needed), needed);
   }
-  std::byte* allocate(std::size_t size, unsigned lane) {
-    const std::size_t bytes = bytesFor(size, lane);
-    const std::size_t page = pageOf(neededFor(size, lane));
+  std::byte* allocate(std::size_t size, unsigned lane) { return allocateIn(pageOf(neededFor(size, lane)), size, lane); }
+  std::byte* allocateIn(std::size_t page, std::size_t size, unsigned lane) {
+    const std::size_t bytes = roundedTo(page, neededFor(size, lane));
     memory_ = static_cast<std::byte*>(std::aligned_alloc(page, bytes));
     if (memory_ == nullptr) throw std::bad_alloc{};
     // A wish: without huge pages it is only slower, by some 6 % with a million particles.

@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <hwy/cache_control.h>
+#include <new>
+#include <type_traits>
 
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/passes/direct_search-inl.h"
@@ -33,7 +35,8 @@ class DensityPass {
   using Kernel = KernelOf<L>;
 
   static void run(DensityJob<Real>& job) {
-    DensityPass pass{job};
+    static_assert(sizeof(DensityPass) <= kDensityRoom<Real> && std::is_trivially_destructible_v<DensityPass>);
+    DensityPass& pass = *::new (job.room) DensityPass{job};
     for (int row = job.row_begin; row < job.row_end; ++row) {
       if (job.grid.rowBegin(row) != job.grid.rowEnd(row)) pass.sweepRow(row);
     }
@@ -344,8 +347,7 @@ class DensityPass {
     }
   }
 
-  // The candidates' arrays are read side by side: a quarter of a page apart they keep out of each other's cache sets. On a page's
-  // border, so that no run's luck with its stack decides which sets they share with the particles.
+  // The candidates' arrays are read side by side: a quarter of a page apart they keep out of each other's cache sets.
   static constexpr int kCandidateRoom = kMaxCandidates + 1024 / static_cast<int>(sizeof(Real));
   alignas(4096) Real x_[kCandidateRoom];
   Real y_[kCandidateRoom];

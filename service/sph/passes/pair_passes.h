@@ -65,7 +65,8 @@ class PairPasses {
         acceleration_{std::size_t{capacity} * 4, 43},
         former_acceleration_{std::size_t{capacity} * 4, 44},
         list_at_{capacity, 47},
-        blocks_{capacity, 53} {
+        blocks_{capacity, 53},
+        room_{roomFor(capacity, static_cast<std::size_t>(shares) * kDensityRoom<Real>)} {
     const double neighbors = 4.2 * support_ratio * support_ratio * support_ratio;
     const std::size_t per_particle = static_cast<std::size_t>(1.2 * neighbors) + 24;
     for (int share = 0; share < shares; ++share) {
@@ -222,7 +223,7 @@ class PairPasses {
   Real* record(std::size_t i) { return record_.data() + i * static_cast<std::size_t>(4 * groups_); }
 
   std::size_t bytes() const {
-    return record_.bytes() + density_.bytes() + 2 * acceleration_.bytes() + list_at_.bytes() + blocks_.bytes();
+    return record_.bytes() + density_.bytes() + 2 * acceleration_.bytes() + list_at_.bytes() + blocks_.bytes() + room_.bytes();
   }
   std::size_t listBytes() const {
     std::size_t sum = 0;
@@ -261,6 +262,13 @@ class PairPasses {
   /// Particles of the rows that density() and the walk take in turns.
   static constexpr std::uint32_t kChunk = 512;
 
+  /// Few particles never ask for more than their own pages.
+  static AlignedArray<std::byte> roomFor(std::uint32_t capacity, std::size_t bytes) {
+    constexpr std::uint32_t kManyParticles = 4096;
+    if (capacity < kManyParticles) return {bytes, 0, Uninitialized{}};
+    return {bytes, HugePage{}};
+  }
+
   void setDummy(std::uint32_t count) {
     Real* dummy = record_.data() + std::size_t{count} * static_cast<std::size_t>(4 * groups_);
     for (int k = 0; k < 4 * groups_; ++k) dummy[k] = dummyField(k);
@@ -294,6 +302,7 @@ class PairPasses {
     job.pressure_scale = constants_.pressure_scale;
     job.symmetric = symmetric_;
     job.reach2 = reach_ * reach_;
+    job.room = room_.data() + static_cast<std::size_t>(share) * kDensityRoom<Real>;
     job.lists = &lists;
     job.list_at = list_at_.data();
     job.blocks = blocks_.data();
@@ -354,6 +363,7 @@ class PairPasses {
   AlignedArray<Real> former_acceleration_;
   AlignedArray<std::uint32_t> list_at_;
   AlignedArray<std::uint8_t> blocks_;
+  AlignedArray<std::byte> room_;  // of the density passes, for each share
   std::vector<AlignedArray<std::uint32_t>> entries_;
   std::vector<NeighborLists> lists_;
   std::vector<std::uint64_t> overflowed_;

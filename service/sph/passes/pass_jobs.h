@@ -11,6 +11,10 @@ namespace bleedsim::sph {
 constexpr int kMaxNeighbors = 192;           ///< a list's length; more go the slow path
 constexpr std::uint8_t kOverflowList = 255;  ///< in NeighborLists::blocks: this particle takes the slow path
 
+/// What a density pass keeps of a cell at work, for each thread, bytes; on a page's border.
+template <class Real>
+inline constexpr std::size_t kDensityRoom = sizeof(Real) * 32768;
+
 /// The support radius that a density pass weighs a pair with: h for all, the mean of both particles' kernels (the sound model's
 /// (34)), or the particle's own (the literal model's).
 enum class SupportRadius : std::uint8_t { common, mean, own };
@@ -42,6 +46,7 @@ struct DensityJob {
   Real pressure_scale = 0;       ///< makes the record's pressure term, kRecordPressure
   bool symmetric = false;        ///< kRecordPressure is for (17)
 
+  std::byte* room = nullptr;  ///< kDensityRoom, of this share alone
   NeighborLists* lists = nullptr;
   std::uint32_t* list_at = nullptr;  ///< per particle, in the share's entries
   std::uint8_t* blocks = nullptr;    ///< per particle, list length in vectors, or kOverflowList

@@ -106,7 +106,7 @@ Real TissueField<Real>::scaledFriction(Real share, Real distance, const Own& own
 template <class Real>
 void TissueField<Real>::addPlane(const Plane& plane, Real distance, const Own& own, WallTerms<Real>& terms) const {
   const Share<Real> share = plane_table_->at(distance, own);
-  WallTerm<Real> term;
+  WallTerm<Real> term{};
   term.distance = distance;
   term.normal = plane.surface.normal();
   term.share = share.share;
@@ -137,7 +137,7 @@ void TissueField<Real>::addObstacle(const Obstacle& obstacle, Real x, Real y, Re
     slope[axis] = 0;
   }
   const SignedDistance<Real> nearest = obstacle.surface.at(x, y, z);
-  WallTerm<Real> term;
+  WallTerm<Real> term{};
   term.distance = nearest.value;
   term.normal = nearest.normal;
   term.share = full * filled[0] * filled[1] * filled[2];
@@ -155,7 +155,7 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, const 
   if (!bowl.surface.nears({x, y, z}, {}, reach_)) return;
   const auto part = bowl.surface.parts(x, y, z);
   const std::array<Real, 3>& n = part.sphere_normal;
-  WallTerm<Real> term;
+  WallTerm<Real> term{};
   term.grip = bowl.grip;
   if (part.plane <= -reach_) {  // deep under the rim, where most touch: the hollow's table knows all, and it is the nearest
     const Share<Real> hollow = bowl.table.at(part.sphere, own);

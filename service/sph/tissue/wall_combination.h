@@ -8,21 +8,21 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
 
 #include "service/sph/tissue/share_rule.h"
 
 namespace bleedsim::sph {
 
-/// What one wall (a plane, a block, a bowl) adds to a particle.
+/// What one wall (a plane, a block, a bowl) adds to a particle. Its fields have no defaults: a list of eight would be written in
+/// full for every particle, which costs more than one wall's term.
 template <class Real>
 struct WallTerm {
-  Real distance = 0;               ///< m
-  std::array<Real, 3> normal{};    ///< unit, into the blood
-  Real share = 0;                  ///< L_k
-  std::array<Real, 3> gradient{};  ///< grad L_k, 1/m
-  Real friction = 0;               ///< 1/m^2, <= 0
-  Real grip = 1;                   ///< 1 - slip
+  Real distance;                 ///< m
+  std::array<Real, 3> normal;    ///< unit, into the blood
+  Real share;                    ///< L_k
+  std::array<Real, 3> gradient;  ///< grad L_k, 1/m
+  Real friction;                 ///< 1/m^2, <= 0
+  Real grip;                     ///< 1 - slip
 };
 
 /// The walls that a particle touches. More than kMost at once are not resolved: the nearest ones count.
@@ -31,13 +31,12 @@ class WallTerms {
  public:
   static constexpr int kMost = 8;
 
-  WallTerms() {}  // leaves the terms unmade
   int size() const { return size_; }
   const WallTerm<Real>& operator[](int k) const { return terms_[k]; }
 
   void add(const WallTerm<Real>& term) {
     if (size_ < kMost) {
-      std::construct_at(&terms_[size_++], term);
+      terms_[size_++] = term;
       return;
     }
     int furthest = 0;
@@ -58,9 +57,7 @@ class WallTerms {
 
  private:
   int size_ = 0;
-  union {  // only the first `size_` exist: to write them all for every particle would cost more than one wall's term
-    std::array<WallTerm<Real>, kMost> terms_;
-  };
+  std::array<WallTerm<Real>, kMost> terms_;  // the first size_ of them
 };
 
 template <class Real>

@@ -1,12 +1,14 @@
-// The small parts that a step is made of: time step, hash, executor, flush-to-zero, seeding.
+// The small parts that a step is made of: time step, hash, arrays, executor, flush-to-zero, seeding.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <limits>
 #include <set>
 #include <vector>
 
+#include "service/sph/aligned_array.h"
 #include "service/sph/executor.h"
 #include "service/sph/flush_to_zero.h"
 #include "service/sph/integrate/time_step.h"
@@ -168,6 +170,19 @@ TEST(Jitter, IsUniformAndTheSameEverywhere) {
   }
   EXPECT_NEAR(sum / kDraws, 0.0, 0.01);
   EXPECT_NEAR(square / kDraws, 1.0 / 3.0, 0.01);
+}
+
+TEST(AlignedArrays, StandOnACacheLineOrOnAHugePage) {
+  const auto place = [](const auto& array) { return reinterpret_cast<std::uintptr_t>(array.data()); };
+  AlignedArray<float> plain{1000, 7};
+  EXPECT_EQ(place(plain) % 64, 0u);
+  EXPECT_EQ(plain[999], 0.0f);
+  AlignedArray<std::byte> huge{100'000, HugePage{}};
+  EXPECT_EQ(place(huge) % (std::size_t{2} << 20), 0u);
+  EXPECT_EQ(huge.bytes(), 100'000u);
+  std::memset(huge.data(), 0x5a, huge.size() + 64);  // as far as whole vectors write
+  AlignedArray<std::byte> other = std::move(huge);
+  EXPECT_EQ(other[99'999], std::byte{0x5a});
 }
 
 }  // namespace
