@@ -11,6 +11,7 @@
 #include "service/lab/hardcases/report.h"
 #include "service/lab/json_option.h"
 #include "service/lab/lab_files.h"
+#include "service/lab/machine.h"
 #include "service/lab/progress.h"
 #include "service/lab/side_by_side.h"
 
@@ -39,6 +40,7 @@ std::vector<CaseSetup> setupsOf(const std::string& model) {
 
 ExitCode run(const Arguments& arguments) {
   if (Status status = makeFolder(arguments.folder); !status.ok()) return fail(ExitCode::failed, status.message());
+  const Machine machine = thisMachine();
   std::vector<CaseReport> reports;
   for (const HardCase& hard_case : hardCases()) {
     const bool wanted = arguments.cases.empty() ||
@@ -58,8 +60,8 @@ ExitCode run(const Arguments& arguments) {
         report.outcomes[job % each] = runHardCase(*report.hard_case, report.setups[job % each]);
       },
       [&](std::size_t finished) { progress.report(static_cast<double>(finished) / static_cast<double>(jobs)); });
-  const nlohmann::json json = toJson(reports);
-  const std::string table = toMarkdown(reports);
+  const nlohmann::json json = toJson(reports, machine);
+  const std::string table = toMarkdown(reports, machine);
   if (arguments.json != "-") fmt::print("{}", table);
   if (Status status = writeJson(arguments.json, json); !status.ok()) return fail(ExitCode::failed, status.message());
   bool sound_holds = true;

@@ -93,6 +93,11 @@ void print(const replay::ReplayReport& report) {
   }
 }
 
+/// As replayRun refuses what cannot be compared: what is promised, a scene, a checkpoint or a state to compare is missing.
+bool saysWhyNotComparable(StatusCode code) {
+  return code == StatusCode::unsupported || code == StatusCode::not_found || code == StatusCode::data_loss;
+}
+
 ExitCode run(const Arguments& arguments) {
   const auto target = sph::parseSimdTarget(arguments.simd);
   if (!target) return fail(ExitCode::usage, target.status().message());
@@ -120,7 +125,7 @@ ExitCode run(const Arguments& arguments) {
   }
   const auto report = replay::replayRun(*recorded, options);
   if (!report) {
-    const bool refused = arguments.verify && report.status().code() == StatusCode::unsupported;
+    const bool refused = arguments.verify && saysWhyNotComparable(report.status().code());
     return fail(
         refused ? ExitCode::differs : ExitCode::failed,
         (refused ? "'" + arguments.file + "' cannot be verified: " : "'" + arguments.file + "': ") + report.status().message());

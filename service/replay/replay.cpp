@@ -211,6 +211,15 @@ class Replayer {
   std::size_t states_seen_ = 0;
 };
 
+/// Of the states that there are to compare.
+std::uint64_t lastStep(const RecordedRun& run) {
+  std::uint64_t last = 0;
+  for (const auto& [number, epoch] : run.epochs) {
+    for (const RecordedState& state : epoch.states) last = std::max(last, state.step);
+  }
+  return last;
+}
+
 /// What speaks against bit-equal states.
 std::vector<std::string> doubts(const RecordedRun& run, sph::SimdTarget target) {
   std::vector<std::string> out;
@@ -234,8 +243,9 @@ Result<sph::SimdTarget> chooseTarget(const RecordedRun& run, sph::SimdTarget wan
 }  // namespace
 
 bool ReplayReport::bitEqual() const {
-  return std::all_of(epochs.begin(), epochs.end(),
-                     [](const EpochReplay& epoch) { return epoch.broken.empty() && epoch.equal == epoch.compared; });
+  const bool compared = std::any_of(epochs.begin(), epochs.end(), [](const EpochReplay& epoch) { return epoch.compared > 0; });
+  return compared && std::all_of(epochs.begin(), epochs.end(),
+                                 [](const EpochReplay& epoch) { return epoch.broken.empty() && epoch.equal == epoch.compared; });
 }
 
 Result<ReplayReport> replayRun(const RecordedRun& run, const ReplayOptions& options) {
@@ -255,6 +265,11 @@ Result<ReplayReport> replayRun(const RecordedRun& run, const ReplayOptions& opti
   // Where an epoch goes on from a checkpoint that was given, the file alone need not be enough.
   if (options.verify && !report.notes.empty() && !(options.checkpoint && report.notes.front() == run.not_replayable)) {
     return Status{StatusCode::unsupported, report.notes.front()};
+  }
+  // Known before anything is simulated: a comparison of nothing would pass.
+  if (const std::uint64_t last = lastStep(run); options.verify && last < options.from_step) {
+    return Status{StatusCode::not_found,
+                  fmt::format("it has no state from step {} on to compare; its last one is of step {}", options.from_step, last)};
   }
   sph::WorldOptions world;
   world.threads = options.threads;

@@ -51,11 +51,13 @@ struct ReplayReport {
   std::vector<std::string> notes;  ///< what speaks against bit-equal states
   std::vector<EpochReplay> epochs;
 
+  /// Some states were compared, and all of them are.
   bool bitEqual() const;
 };
 
 /// unsupported: bit-equal states are not promised, with the reason (verify only); data_loss, not_found: the scene of an epoch or
-/// a checkpoint is missing; else as sph::createWorld.
+/// a checkpoint is missing or another one; not_found: there is no state to compare, from from_step on (verify only) or at all;
+/// else as sph::createWorld.
 Result<ReplayReport> replayRun(const RecordedRun& run, const ReplayOptions& options);
 
 }  // namespace bleedsim::replay

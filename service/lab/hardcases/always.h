@@ -19,7 +19,7 @@ struct Always {
   double deepest = std::numeric_limits<double>::infinity();  ///< smallest signed distance to tissue, spacings
   std::uint64_t miscounted = 0;                              ///< steps at which count != injected - removed
   double fastest = 0.0;                                      ///< |v|/v_cap
-  std::uint64_t uncounted_clamps = 0;                        ///< steps that reached v_cap in a world that counts no clamp
+  std::uint64_t uncounted_clamps = 0;                        ///< steps that brought more particles to v_cap than they counted
   std::uint64_t beyond_caps = 0;                             ///< steps with more iterations or retries than they may have
   std::uint64_t counters_fell = 0;                           ///< steps after which a counter was lower
 
@@ -39,11 +39,13 @@ class AlwaysWatch {
   const sph::FrameBuffer& look(const sph::World& world);
 
  private:
-  void checkParticles(const sph::World& world);
+  /// `clamps`: speeds that the step counted as clamped.
+  void checkParticles(const sph::World& world, std::uint64_t clamps);
   void checkDepth(const sph::World& world);
 
   Always& worst_;
   sph::FrameBuffer frame_;
+  std::vector<std::uint32_t> fast_;  ///< ids of those near v_cap at the last look, rising
   std::array<std::uint64_t, static_cast<std::size_t>(sph::Counter::count)> counters_{};
 };
 

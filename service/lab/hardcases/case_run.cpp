@@ -70,15 +70,15 @@ sph::WorldDescription CaseRun::prepared(sph::WorldDescription scene) const {
   return scene;
 }
 
-std::unique_ptr<sph::World> CaseRun::build(const sph::WorldDescription& scene, int threads) {
-  auto world = sph::createWorld(prepared(scene), {.threads = threads, .precision = setup_.precision});
+std::unique_ptr<sph::World> CaseRun::build(const sph::WorldDescription& prepared_scene, int threads) {
+  auto world = sph::createWorld(prepared_scene, {.threads = threads, .precision = setup_.precision});
   if (world) return std::move(*world);
   outcome_.stopped = world.status().message();
   return nullptr;
 }
 
 std::unique_ptr<Trial> CaseRun::start(const sph::WorldDescription& scene, int threads) {
-  auto world = build(scene, threads);
+  auto world = build(prepared(scene), threads);
   return world ? std::make_unique<Trial>(std::move(world), outcome_, always_) : nullptr;
 }
 

@@ -59,8 +59,8 @@ class CaseRun {
   sph::WorldDescription prepared(sph::WorldDescription scene) const;
   /// A world of prepared(scene); null where that is refused, which ends the case.
   std::unique_ptr<Trial> start(const sph::WorldDescription& scene, int threads = 1);
-  /// The same, not watched.
-  std::unique_ptr<sph::World> build(const sph::WorldDescription& scene, int threads = 1);
+  /// A world of just that description, not watched.
+  std::unique_ptr<sph::World> build(const sph::WorldDescription& prepared_scene, int threads = 1);
 
   void atMost(std::string name, double value, double bound);
   void atLeast(std::string name, double value, double bound);

@@ -43,6 +43,27 @@ sph::WorldDescription overlap(double distance) {
   return scene;
 }
 
+/// Of blood at the density of the frame, and what the fall from the blocks' top to the floor adds, J. p = c0^2 (rho - rho0) has
+/// stored c0^2 (ln s + 1/s - 1) per mass at s = rho/rho0 > 1, and (16) gives back just that.
+double energyOfOverlap(Trial& trial) {
+  constexpr double kFall = 0.009;  // m
+  const sph::World& world = trial.world();
+  const double rest_density = world.description().rest_density;
+  const double square = world.speedOfSound() * world.speedOfSound();
+  const sph::FrameBuffer& frame = trial.frame();
+  double sum = kCaseGravity * kFall * frame.count;
+  for (std::size_t i = 0; i < frame.count; ++i) {
+    const double s = std::max(1.0, static_cast<double>(frame.density[i]) / rest_density);
+    sum += square * (std::log(s) + 1.0 / s - 1.0);
+  }
+  return world.particleMass() * sum;
+}
+
+double cutsOf(const Trial& trial) {
+  return static_cast<double>(trial.counted(sph::Counter::acceleration_clamped) +
+                             trial.counted(sph::Counter::infinite_force_capped) + trial.counted(sph::Counter::speed_clamped));
+}
+
 constexpr int kBlockAcross = 6;
 
 sph::WorldDescription shot(double speed) {
@@ -114,12 +135,47 @@ void fiveThousandInACell(CaseRun& run) {
   run.told("mean compression after 3 steps", trial->stats().mean_density_error);
 }
 
-// The density doubles, so p = rho0 c0^2: the worst that seeding can do. It blows apart, bounded and counted.
+// The density doubles, so p = rho0 c0^2: the worst that seeding can do. It blows apart, bounded and counted. The motion gets half
+// and more of the energy that the overlap has stored, and no more than all of it and 2 % of finite steps; contacts that grow,
+// viscosity of platelets and changing radii add to it and take from it, so that this is asked without them. A plane front runs
+// into the air at c0 ln 2, because sound has one speed at every density, so a corner, which three fronts make, at sqrt(3) times
+// that at most. In the last tenth nothing is cut. Printed, (17) is no gradient of an energy: there all this is told. Who is
+// thrown out of the domain is counted, everyone else is there.
 void overlappingSeeds(CaseRun& run) {
   for (const double distance : {0.0, 0.1, 0.2, 0.3}) {
+    const std::string at = ", " + std::to_string(distance).substr(0, 3) + " dx";
     const auto trial = run.start(overlap(distance));
-    if (!trial || !trial->step(1e-9) || !trial->runFor(0.06)) return;
-    run.atMost("mean compression, " + std::to_string(distance).substr(0, 3) + " dx", trial->stats().mean_density_error, 0.015);
+    if (!trial) return;
+    const double stored = energyOfOverlap(*trial);
+    double most = 0.0;
+    double fastest = 0.0;
+    const auto look = [&] {
+      const sph::WorldStats stats = trial->stats();
+      most = std::max(most, stats.kinetic_energy);
+      fastest = std::max(fastest, stats.max_speed);
+    };
+    if (!trial->step(1e-9) || !trial->runFor(0.054, look)) return;
+    const double cuts = cutsOf(*trial);
+    if (!trial->runFor(0.006, look)) return;
+    const sph::WorldStats stats = trial->stats();
+    const double of_sound = fastest / trial->world().speedOfSound();
+    const double late_cuts = cutsOf(*trial) - cuts;
+    if (run.literal() || run.all()) {
+      run.told("kinetic energy over the stored" + at, most / stored);
+    } else {
+      run.within("kinetic energy over the stored" + at, most / stored, 0.5, 1.02);
+    }
+    if (run.literal()) {
+      run.told("fastest, of c0" + at, of_sound);
+      run.told("clamps in the last tenth" + at, late_cuts);
+    } else {
+      run.atMost("fastest, of c0" + at, of_sound, std::sqrt(3.0) * std::log(2.0));
+      run.within("clamps in the last tenth" + at, late_cuts, 0.0, 0.0);
+    }
+    const auto seeded = static_cast<double>(stats.injected);
+    const auto known = static_cast<double>(stats.particles + trial->counted(sph::Counter::left_domain));
+    run.within("neither there nor counted as gone" + at, seeded - known, 0.0, 0.0);
+    run.atMost("mean compression" + at, stats.mean_density_error, 0.015);
   }
 }
 

@@ -1,5 +1,6 @@
 // Hard cases 16 and 20: what the machine makes of it.
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -79,15 +80,47 @@ sph::WorldDescription busyScene() {
   return scene;
 }
 
-/// What a session does at given steps: pushes, a wound that moves, viscosity that changes, repulsion that comes and goes unless
-/// every effect is on.
+template <class Settings>
+void toggle(std::optional<Settings>& effect) {
+  if (effect) {
+    effect.reset();
+  } else {
+    effect.emplace();
+  }
+}
+
+constexpr std::array kChanges{20, 25, 35, 45};  // steps
+
+/// What acts from that step on. Repulsion, and from the second change on platelets, tension and core radius, too, go where they
+/// were and come where they were not; then they are again as at the start. The thicker blood stays.
+sph::WorldDescription changedScene(const CaseRun& run, int step) {
+  sph::WorldDescription scene = run.prepared(busyScene());
+  scene.effects.viscosity->viscosity = kToggledViscosity;
+  if (step >= kChanges[0] && step < kChanges[2]) toggle(scene.effects.repulsion);
+  if (step >= kChanges[1] && step < kChanges[3]) {
+    toggle(scene.effects.platelets);
+    toggle(scene.effects.surface_tension);
+    toggle(scene.effects.core_radius);
+  }
+  return scene;
+}
+
+/// Effects that act in one of the worlds only.
+double differentEffects(const sph::EffectSettings& a, const sph::EffectSettings& b) {
+  int count = 0;
+  for (const bool differs :
+       {a.repulsion.has_value() != b.repulsion.has_value(), a.platelets.has_value() != b.platelets.has_value(),
+        a.surface_tension.has_value() != b.surface_tension.has_value(), a.core_radius.has_value() != b.core_radius.has_value()}) {
+    count += differs ? 1 : 0;
+  }
+  return count;
+}
+
+/// What a session does at given steps: pushes, a wound that moves, viscosity that changes, effects that come and go.
 bool act(CaseRun& run, Trial& trial, int step, int threads) {
   if (step == 10) return trial.apply(push({0, 0, 0.004}, 0.004, {0.01, 0, -0.005}));
-  if (step == 20 || step == 35) {
-    sph::WorldDescription thicker = busyScene();
-    thicker.effects.viscosity->viscosity = kToggledViscosity;
-    if (step == 20) thicker.effects.repulsion.emplace();
-    return trial.change(run.build(thicker, threads));
+  if (std::find(kChanges.begin(), kChanges.end(), step) != kChanges.end()) {
+    return trial.change(run.build(changedScene(run, step), threads));
   }
   if (step == 30) {
     sph::UpdateWound move;
@@ -122,8 +155,11 @@ void sameBits(CaseRun& run) {
   const auto two = run.start(busyScene(), 2);
   if (!one || !two) return;
   double differing = 0.0;
-  for (int step = 0; step < 50; ++step) {
+  double toggled = 0.0;
+  for (int step = 0; step < 55; ++step) {
+    const sph::EffectSettings before = one->world().description().effects;
     if (!act(run, *one, step, 1) || !act(run, *two, step, 2)) return;
+    toggled += differentEffects(before, one->world().description().effects);
     if (step % 10 == 5) {  // a pause: no step, but readers and a refused command
       two->frame();
       two->stats();
@@ -133,6 +169,7 @@ void sameBits(CaseRun& run) {
     if (one->world().stateHash() != two->world().stateHash()) differing += 1.0;
   }
   run.atLeast("particles", one->world().particleCount(), 2000.0);
+  run.within("effects that came or went", toggled, 8.0, 8.0);
   run.within("steps with other bits", differing, 0.0, 0.0);
 }
 

@@ -51,10 +51,11 @@ const HardOutcome* find(const CaseReport& report, const Column& column, sph::Pre
   return nullptr;
 }
 
-/// The figure nearest to its bound, with its value in double beside that in float.
+/// The judged figure nearest to its bound, with its value in double beside that in float; one that is told if none is judged.
 std::string nearestFigure(const HardOutcome& outcome, const HardOutcome* other) {
-  const auto nearest = std::max_element(outcome.figures.begin(), outcome.figures.end(),
-                                        [](const HardFigure& a, const HardFigure& b) { return useOf(a) < useOf(b); });
+  const auto nearest = std::max_element(
+      outcome.figures.begin(), outcome.figures.end(),
+      [](const HardFigure& a, const HardFigure& b) { return a.judged == b.judged ? useOf(a) < useOf(b) : b.judged; });
   if (nearest == outcome.figures.end()) return {};
   const auto index = static_cast<std::size_t>(nearest - outcome.figures.begin());
   const bool paired = other != nullptr && index < other->figures.size();
@@ -119,7 +120,7 @@ std::string describe(const CaseSetup& setup) {
                      setup.effects == EffectChoice::all ? "all" : "needed", nameOf(setup.precision));
 }
 
-std::string toMarkdown(const std::vector<CaseReport>& reports) {
+std::string toMarkdown(const std::vector<CaseReport>& reports, const Machine& machine) {
   const auto shown = [&](const Column& column) {
     return std::any_of(reports.begin(), reports.end(),
                        [&](const CaseReport& report) { return find(report, column, sph::Precision::float32) != nullptr; });
@@ -131,7 +132,7 @@ std::string toMarkdown(const std::vector<CaseReport>& reports) {
     header += fmt::format(" {} |", column.title);
     rule += "---|";
   }
-  std::string text = header + "\n" + rule + "\n";
+  std::string text = lineOf(machine) + ".\n\n" + header + "\n" + rule + "\n";
   for (const CaseReport& report : reports) {
     text += fmt::format("| {} `{}` | {} |", report.hard_case->number, report.hard_case->name, report.hard_case->asks);
     for (const Column& column : kColumns) {
@@ -142,14 +143,17 @@ std::string toMarkdown(const std::vector<CaseReport>& reports) {
   return text;
 }
 
-nlohmann::json toJson(const std::vector<CaseReport>& reports) {
-  nlohmann::json json = nlohmann::json::array();
+nlohmann::json toJson(const std::vector<CaseReport>& reports, const Machine& machine) {
+  nlohmann::json cases = nlohmann::json::array();
   for (const CaseReport& report : reports) {
     nlohmann::json entry{
         {"number", report.hard_case->number}, {"name", report.hard_case->name}, {"asks", report.hard_case->asks}};
     for (std::size_t k = 0; k < report.setups.size(); ++k) entry["runs"].push_back(toJson(report.setups[k], report.outcomes[k]));
-    json.push_back(std::move(entry));
+    cases.push_back(std::move(entry));
   }
+  nlohmann::json json;
+  json["machine"] = toJson(machine);
+  json["cases"] = std::move(cases);
   return json;
 }
 

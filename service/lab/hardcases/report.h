@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "service/lab/hardcases/hard_case.h"
+#include "service/lab/machine.h"
 
 namespace bleedsim::lab {
 
@@ -16,9 +17,10 @@ struct CaseReport {
 };
 
 /// The columns are a model with a choice of effects each; a cell says whether the case holds in float and in double, and which
-/// figure came nearest to its bound, or broke it.
-std::string toMarkdown(const std::vector<CaseReport>& reports);
-nlohmann::json toJson(const std::vector<CaseReport>& reports);
+/// judged figure came nearest to its bound, or broke it. The machine stands above.
+std::string toMarkdown(const std::vector<CaseReport>& reports, const Machine& machine);
+/// {"machine": of machine.h, "cases": [...]}
+nlohmann::json toJson(const std::vector<CaseReport>& reports, const Machine& machine);
 
 /// "distance, dx 0.31 (at least 0.05)"
 std::string describe(const HardFigure& figure);

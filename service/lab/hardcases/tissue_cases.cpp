@@ -37,7 +37,7 @@ sph::WorldDescription cusp() {
 constexpr int kPoolAcross = 6;
 constexpr int kPoolDeep = 3;
 constexpr double kPoolHalf = 0.5 * kPoolAcross * kCaseSpacing;  // m
-constexpr double kBlockDepth = 0.011;  // m
+constexpr double kBlockDepth = 0.011;                           // m
 
 /// Two blocks of tissue that stand `gap` spacings apart, under a pool.
 sph::WorldDescription overAGap(double gap) {

@@ -34,7 +34,7 @@ sph::WorldDescription swirl(double viscosity) {
 void viscosityStep(CaseRun& run) {
   constexpr double kThin = 0.00345;  // Pa s
   const auto trial = run.start(swirl(kThin));
-  if (!trial || !trial->runSteps(20) || !trial->change(run.build(swirl(1e4 * kThin)))) return;
+  if (!trial || !trial->runSteps(20) || !trial->change(run.build(run.prepared(swirl(1e4 * kThin))))) return;
   const double before = trial->stats().kinetic_energy;
   double last = before;
   double rise = -1.0;

@@ -1,7 +1,13 @@
 // A session recorded over DDS while it is commanded and pushed, simulated again by bleedlab.
+#include <algorithm>
+#include <cstdint>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "bleedsim/recorder.h"
 #include "tests/integration/replay/replay_fixture.h"
@@ -35,6 +41,16 @@ class RecordAndReplay : public ReplayFixture {
   test::Finished replay(std::vector<std::string> more) const {
     more.insert(more.begin(), {BLEEDLAB_PATH, "replay", file()});
     return test::runProcess(more, true);
+  }
+
+  /// Steps of the states that --speed lets pass, in the order of its lines.
+  static std::vector<std::uint64_t> stepsShown(const std::string& output) {
+    std::vector<std::uint64_t> steps;
+    std::istringstream lines{output};
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind("step ", 0) == 0) steps.push_back(std::stoull(line.substr(5)));
+    }
+    return steps;
   }
 };
 
@@ -75,9 +91,11 @@ TEST_F(RecordAndReplay, IsBitEqualOnOneThreadAndOnTwo) {
   const test::Finished info = test::runProcess({BLEEDCTL_PATH, "info", file()}, false);
   EXPECT_EQ(info.code, 0) << info.output;
 
+  std::vector<std::uint64_t> shown;
   for (const char* threads : {"1", "2"}) {
     const std::string json_file = (folder_ / "replay.json").string();
-    const test::Finished verified = replay({"--verify", "--threads", threads, "--json", json_file});
+    // A pace far above that of the solver, so that nobody waits.
+    const test::Finished verified = replay({"--verify", "--threads", threads, "--json", json_file, "--speed", "1000"});
     EXPECT_EQ(verified.code, 0) << verified.output;
     EXPECT_THAT(verified.output, HasSubstr("recorded states are bit-equal"));
     const nlohmann::json json = nlohmann::json::parse(std::ifstream{json_file});
@@ -86,7 +104,26 @@ TEST_F(RecordAndReplay, IsBitEqualOnOneThreadAndOnTwo) {
     EXPECT_GT(json["epochs"][0]["inputs"].get<int>(), 5);
     EXPECT_GT(json["epochs"][0]["compared"].get<int>(), 3);
     EXPECT_GT(json["epochs"][1]["compared"].get<int>(), 3);
+    shown = stepsShown(verified.output);
+    EXPECT_EQ(shown.size(), json["epochs"][0]["compared"].get<std::size_t>() + json["epochs"][1]["compared"].get<std::size_t>());
   }
+  ASSERT_FALSE(shown.empty());
+  std::vector<std::uint64_t> sorted = shown;
+  std::sort(sorted.begin(), sorted.end());
+  const std::uint64_t middle = sorted[sorted.size() / 2];
+  ASSERT_LT(sorted.front(), middle) << "nothing to leave out";
+  std::vector<std::uint64_t> later;
+  std::copy_if(shown.begin(), shown.end(), std::back_inserter(later), [middle](std::uint64_t step) { return step >= middle; });
+  const test::Finished from = replay({"--verify", "--from", std::to_string(middle), "--speed", "1000"});
+  EXPECT_EQ(from.code, 0) << from.output;
+  EXPECT_EQ(stepsShown(from.output), later);
+
+  const test::Finished beyond = replay({"--verify", "--from", std::to_string(sorted.back() + 1)});
+  EXPECT_EQ(beyond.code, 3) << beyond.output;
+  EXPECT_THAT(beyond.output,
+              HasSubstr(fmt::format("cannot be verified: it has no state from step {} on to compare; its last one is of step {}",
+                                    sorted.back() + 1, sorted.back())));
+  EXPECT_EQ(replay({"--speed", "0"}).code, 2);
   const test::Finished other = replay({"--verify", "--simd", "scalar"});
   EXPECT_EQ(other.code, 3) << other.output;
   EXPECT_THAT(other.output, HasSubstr("cannot be verified: it was made with SIMD target"));

@@ -17,6 +17,9 @@ namespace {
 
 using testing::HasSubstr;
 
+/// Of the service's own checkpoints, simulated s. At this test's pace 1 s, which is longer than a disk takes.
+constexpr double kInterval = 0.02;
+
 /// A run that nobody disturbs: the scene from its beginning, with the wound 'cut' moved after so many steps.
 class UndisturbedRun {
  public:
@@ -51,7 +54,8 @@ class Resume : public ReplayFixture {
  protected:
   /// Slow, so that an undisturbed run can follow, however the program was built.
   std::vector<std::string> options(std::vector<std::string> more = {}) const {
-    more.insert(more.end(), {"--pace", "0.05", "--checkpoint-every", "0.01", "--checkpoint-dir", checkpointDir(), "--resume"});
+    more.insert(more.end(), {"--pace", "0.02", "--checkpoint-every", std::to_string(kInterval), "--checkpoint-dir",
+                             checkpointDir(), "--resume"});
     return more;
   }
   std::filesystem::path fileOf(const std::string& name) const {
@@ -64,6 +68,15 @@ class Resume : public ReplayFixture {
     const auto status = session.waitStatus(enough, test::kPatience);
     EXPECT_TRUE(status.ok()) << status.status().message();
     return status.ok() ? status->checkpoints.front() : client::CheckpointInfo{};
+  }
+
+  /// s, of the state that it went on from, to the millisecond of the log.
+  static double resumedTime(client_test::RunningDaemon& daemon) {
+    EXPECT_TRUE(daemon.process().waitForOutput(" s of epoch "));
+    const std::string& output = daemon.process().output();
+    const std::size_t step = output.find("': step ", output.find("resumed from checkpoint '"));
+    if (step == std::string::npos) return 0.0;
+    return std::stod(output.substr(output.find(", ", step) + 2));
   }
 
   static void kill(client_test::RunningDaemon& daemon) {
@@ -100,14 +113,24 @@ TEST_F(Resume, AfterKillsAtRandomTimesGoesOnAsIfNothingHadHappened) {
   UndisturbedRun twin{sceneText(), moved.applied_step - 1, position};
   std::uint64_t before = 0;
   for (int round = 0; round < 3; ++round) {
-    const std::uint64_t reach = daemon->session().status()->step + random() % 150;
-    const auto there = [reach](const client::SessionStatus& status) { return status.step >= reach; };
+    // By then the checkpoint that an epoch begins with is older than an interval: only one of the clock's own will do. The newest
+    // is within an interval of what the session tells whenever its file took less than an interval to write. A slow disk may miss
+    // one such moment, not all of them; a session that has stopped writing has none.
+    const double reach = daemon->session().status()->sim_time_s + kInterval * (1.5 + 0.01 * static_cast<double>(random() % 200));
+    const auto there = [reach](const client::SessionStatus& status) {
+      return status.sim_time_s >= reach && !status.checkpoints.empty() &&
+             status.sim_time_s - status.checkpoints.front().sim_time_s <= kInterval;
+    };
     const auto seen = daemon->session().waitStatus(there, test::kPatience);
-    ASSERT_TRUE(seen.ok());
+    ASSERT_TRUE(seen.ok()) << "no checkpoint of the last interval: " << seen.status().message();
     kill(*daemon);
     daemon = start(options());
     ASSERT_NE(daemon, nullptr);
     ASSERT_TRUE(daemon->process().waitForOutput("resumed from checkpoint '"));
+    // One interval is lost at most, of what had been told to be safe; what ran while the last file was in flight depends on the
+    // disk.
+    const double resumed_time = resumedTime(*daemon) + 0.0005;  // the log rounds
+    EXPECT_GE(resumed_time, seen->sim_time_s - kInterval);
     // A file that the session told of is on the disk: nothing before it is lost.
     const std::uint64_t resumed = daemon->session().status()->checkpoints.front().step;
     EXPECT_GE(daemon->session().status()->step, seen->checkpoints.front().step);

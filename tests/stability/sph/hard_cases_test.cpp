@@ -1,4 +1,6 @@
 // The twenty hard cases of physics.md section 6, run by the functions that bleedlab hardcases runs.
+#include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
 #include <iomanip>
 #include <sstream>
@@ -42,8 +44,19 @@ void PrintTo(const Tested& tested, std::ostream* out) { *out << nameOf(tested); 
 
 class HardCaseTest : public testing::TestWithParam<Tested> {};
 
-// The sound model holds every bound, whatever effects act. Of the literal model only that it ends, with figures or with a reason,
-// is asked: bleedlab hardcases tells what it does.
+// What the literal model holds too, in both precisions (tests/bench/results, hardcases.md). The others break in the printed
+// equations themselves, which the sound model is there for: particles on one spot do not part (1), unlike viscosities lose
+// momentum (8), and with a pressure that is the gradient of no energy seeds fly apart too fast (3), blood comes to no rest (5, 6,
+// 12, 17), thin films, lone pairs and narrow gaps are not kept apart from what is beside them (4, 9, 10, 13, 15). Mending that
+// would make another model: bleedlab hardcases records it.
+constexpr std::array kLiteralHolds{2, 7, 11, 14, 16, 18, 19, 20};
+
+bool mustHold(const Tested& tested) {
+  if (tested.setup.model == sph::Model::sound) return true;
+  return std::find(kLiteralHolds.begin(), kLiteralHolds.end(), tested.hard_case->number) != kLiteralHolds.end();
+}
+
+// The sound model holds every bound, whatever effects act. The cases that the literal model breaks end, with figures or a reason.
 TEST_P(HardCaseTest, holds) {
   const HardOutcome outcome = runHardCase(*GetParam().hard_case, GetParam().setup);
   std::string figures;
@@ -51,7 +64,7 @@ TEST_P(HardCaseTest, holds) {
   RecordProperty("figures", figures);
   EXPECT_TRUE(!outcome.figures.empty() || !outcome.stopped.empty());
   EXPECT_FALSE(outcome.always.empty());
-  if (GetParam().setup.model == sph::Model::literal) {
+  if (!mustHold(GetParam())) {
     RecordProperty("fails", describeFailures(outcome));
     return;
   }

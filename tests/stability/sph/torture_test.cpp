@@ -31,6 +31,25 @@ TEST_P(TortureTest, randomScenesKeepWhatMustAlwaysHold) {
   EXPECT_LT(refused, kScenesOfAPart / 4) << "most scenes must be valid to be worth it";
 }
 
+// A part more with the equations as printed. They may fault, which ends a scene, and more scenes are refused: what blocks and
+// effects say that the model does not read. What must always hold does until then.
+TEST(Torture, literalScenesKeepWhatMustAlwaysHold) {
+  const std::uint64_t first = kSeed + 1000;
+  std::printf("torture: literal seeds %llu and the %d after it\n", static_cast<unsigned long long>(first), kScenesOfAPart - 1);
+  int ran = 0;
+  std::uint64_t particle_steps = 0;
+  for (std::uint64_t seed = first; seed < first + kScenesOfAPart; ++seed) {
+    const TortureOutcome outcome = runPlan(makePlan(seed, scene::Scene::LITERAL, kSteps));
+    EXPECT_TRUE(outcome.refused || outcome.holds) << "seed " << seed << ": " << outcome.text;
+    if (outcome.refused) continue;
+    ++ran;
+    particle_steps += outcome.particle_steps;
+  }
+  EXPECT_GE(2 * ran, kScenesOfAPart) << "most scenes must be valid to be worth it";
+  // As many as ten particles make in each scene that runs to its end; scenes have hundreds.
+  EXPECT_GT(particle_steps, static_cast<std::uint64_t>(10 * ran * kSteps)) << "scenes fault before they move";
+}
+
 INSTANTIATE_TEST_SUITE_P(parts, TortureTest, testing::Range(0, 8));
 
 // Seeds that found something. 58: an implicit solve left a particle of a fast body above v_cap.

@@ -225,6 +225,15 @@ TEST_F(Replay, RefusesWhatItCannotPromise) {
               HasSubstr("2 journal entries"));
   EXPECT_THAT(refusal([](RecordedRun& r) { r.epochs.at(1).scene_text.clear(); }), HasSubstr("its scene is not in the file"));
   EXPECT_THAT(refusal([](RecordedRun& r) { r.epochs.at(1).states.clear(); }), HasSubstr("no statistics of frames"));
+  // A comparison of nothing is none.
+  const std::uint64_t last = run.epochs.at(1).states.back().step;
+  EXPECT_EQ(refusal([](RecordedRun&) {}, {.verify = true, .from_step = last}), "");
+  EXPECT_EQ(refusal([](RecordedRun&) {}, {.verify = true, .from_step = last + 1}),
+            fmt::format("it has no state from step {} on to compare; its last one is of step {}", last + 1, last));
+  const Result<ReplayReport> nothing = replayRun(run, {.from_step = last + 1});
+  ASSERT_TRUE(nothing.ok()) << nothing.status().message();
+  EXPECT_EQ(nothing->epochs.front().compared, 0u);
+  EXPECT_FALSE(nothing->bitEqual());
   // Without --verify another build is no more than a doubt.
   EXPECT_EQ(refusal([](RecordedRun& r) { r.build_id = std::string{"9.9 other"}; }, {}), "");
 }
