@@ -49,7 +49,11 @@ TEST(ShareRule, partialDerivatives) {
 }
 
 WallTerm<double> termOf(const std::array<double, 3>& normal, double share, double distance = 0.0) {
-  return {.distance = distance, .normal = normal, .share = share};
+  WallTerm<double> term{};
+  term.distance = distance;
+  term.normal = normal;
+  term.share = share;
+  return term;
 }
 
 WallTerms<double> threeWalls(const std::array<double, 3>& shares) {
