@@ -64,12 +64,7 @@ class ObstacleSurface {
   Real upper(int axis) const { return upper_[axis]; }
 
   /// The largest of the distances to the six planes: phi >= this, equal to it beside a face and inside the block.
-  Real faceDistance(Real x, Real y, Real z) const {
-    const Real along_x = std::max(lower_[0] - x, x - upper_[0]);
-    const Real along_y = std::max(lower_[1] - y, y - upper_[1]);
-    const Real along_z = std::max(lower_[2] - z, z - upper_[2]);
-    return std::max(along_x, std::max(along_y, along_z));
-  }
+  Real faceDistance(Real x, Real y, Real z) const { return leastAbout({x, y, z}, {}); }
 
   /// A bound below faceDistance() in the box of these half edges about a point: it is 1-Lipschitz along each axis.
   Real leastAbout(const std::array<Real, 3>& center, const std::array<Real, 3>& half) const {

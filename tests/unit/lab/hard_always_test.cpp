@@ -4,51 +4,27 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <memory>
-#include <span>
-#include <string_view>
 #include <utility>
 
 #include "service/lab/hardcases/always.h"
 #include "service/lab/hardcases/case_scene.h"
+#include "tests/support/forwarding_world.h"
 
 namespace bleedsim::lab {
 namespace {
 
 /// A world that counts clamped speeds up to a number only.
-class ForgetfulWorld : public sph::World {
+class ForgetfulWorld : public test::ForwardingWorld {
  public:
-  ForgetfulWorld(std::unique_ptr<sph::World> world, std::uint64_t most) : world_{std::move(world)}, most_{most} {}
+  ForgetfulWorld(std::unique_ptr<sph::World> real, std::uint64_t most) : ForwardingWorld{std::move(real)}, most_{most} {}
 
   void collectStats(sph::WorldStats& stats) const override {
-    world_->collectStats(stats);
+    ForwardingWorld::collectStats(stats);
     std::uint64_t& clamped = stats.counters[static_cast<std::size_t>(sph::Counter::speed_clamped)];
     clamped = std::min(clamped, most_);
   }
 
-  Result<sph::Applied> apply(const sph::Command& command) override { return world_->apply(command); }
-  Status checkWound(const sph::Command& command) const override { return world_->checkWound(command); }
-  Status step(double dt_limit) override { return world_->step(dt_limit); }
-  std::uint64_t stepCount() const override { return world_->stepCount(); }
-  double time() const override { return world_->time(); }
-  std::uint32_t particleCount() const override { return world_->particleCount(); }
-  std::span<const sph::WoundState> wounds() const override { return world_->wounds(); }
-  void copyFrame(sph::FrameBuffer& frame, std::uint32_t attributes) const override { world_->copyFrame(frame, attributes); }
-  std::uint64_t stateHash() const override { return world_->stateHash(); }
-  Status adopt(sph::World& from) override { return world_->adopt(from); }
-  std::size_t stateBytes() const override { return world_->stateBytes(); }
-  std::size_t saveState(std::span<std::byte> room) const override { return world_->saveState(room); }
-  Status restoreState(std::span<const std::byte> state) override { return world_->restoreState(state); }
-  std::string_view woundName(std::uint32_t id) const override { return world_->woundName(id); }
-  const sph::WorldDescription& description() const override { return world_->description(); }
-  sph::SimdTarget simdTarget() const override { return world_->simdTarget(); }
-  double speedOfSound() const override { return world_->speedOfSound(); }
-  double particleMass() const override { return world_->particleMass(); }
-  bool faulted() const override { return world_->faulted(); }
-  sph::MemoryUse memory() const override { return world_->memory(); }
-  sph::RunningCode runningCode() const override { return world_->runningCode(); }
-
  private:
-  std::unique_ptr<sph::World> world_;
   std::uint64_t most_;
 };
 
