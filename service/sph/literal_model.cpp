@@ -77,6 +77,13 @@ LiteralJob<Real> literalJob(const WorldDescription& description, const RestLatti
   const double spiky = kernelNorms(KernelType::spiky, description.planar).gradient * per_volume;
   const double laplacian = viscosityLaplacianNorm(description.planar) * per_volume / (h * h);
   LiteralJob<Real> job;
+  if (effects.pressure) {
+    const double scale = (literal.pressure == PressureForm::symmetric ? 0.5 : 1.0) * spiky / h;
+    const double stiffness = literalStiffness(description, speed_of_sound);
+    job.pressure_slope = static_cast<Real>(scale * stiffness);
+    job.pressure_constant =
+        static_cast<Real>(scale * (effects.pressure->background_pressure - stiffness * description.rest_density));
+  }
   if (effects.viscosity) {
     job.viscosity_scale = static_cast<Real>(laplacian * (viscosity_varies ? 1.0 : effects.viscosity->viscosity));
   }

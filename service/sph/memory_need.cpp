@@ -17,7 +17,7 @@ constexpr double kPasses = 4 * 16 + 44;    // record, density, accelerations, pl
 constexpr double kTissueAndEffects = 160;  // shares, moments, residuals, normals
 constexpr double kFrames = 4 * 44;         // three buffers and the sample
 // Neighbour lists as PairPasses reserves them; each thread reserves for all and uses its share.
-constexpr double kBytesOfEntry = 4.0;
+constexpr double kBytesOfEntry = 8.0;  // a neighbour's record and its distance
 
 double listBytes(double support_ratio) {
   return kBytesOfEntry * (1.2 * 4.2 * support_ratio * support_ratio * support_ratio + 24.0);

@@ -90,7 +90,10 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, tables.sweeps.shear_rate);
     if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
     thins_ = viscosityThins(effects);
-    if (effects.platelets) clotting_.emplace(*effects.platelets, description.spacing, description.rest_density, walls_.field());
+    if (effects.platelets) {
+      clotting_.emplace(*effects.platelets, tables.sweeps.platelets, laplacianPrefactor(description, lattice),
+                        description.spacing, description.rest_density, walls_.field());
+    }
   }
   if (mayNeedImplicitViscosity(description, speed_of_sound_)) {
     const ViscositySettings& viscosity = *description.effects.viscosity;
@@ -104,8 +107,8 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_, description.domain);
   }
   if (description.effects.surface_tension && description.model == Model::sound) {
-    surface_tension_.emplace(*description.effects.surface_tension, tables.sweeps, lattice.particle_mass, description.rest_density,
-                             h_, description.capacity);
+    surface_tension_.emplace(*description.effects.surface_tension, tables.sweeps.curvature, lattice.particle_mass,
+                             description.rest_density, h_, description.capacity);
   }
 }
 
@@ -316,9 +319,10 @@ void WorldCore<Real>::computeAccelerations() {
   if (literal_) literal_->thicken(particles_, passes_, count_, shares_, *executor_);
   const bool blood_changes = (shear_rate_ || rheology_) && (thins_ || clotting_due_);
   const bool viscous = !solving_viscosity_;
-  const bool both = literal_
-                        ? passPairsAtOnce(literal_->function(), literal_->job(passes_))
-                        : !blood_changes && passPairsAtOnce(passes_.forceFunction(viscous, clotting_due_), passes_.forceJob());
+  ForceJob<Real> forces = passes_.forceJob();
+  if (surface_tension_) forces.normals = surface_tension_->begin(particles_, walls_, passes_, shares_, *executor_);
+  const bool both = literal_ ? passPairsAtOnce(literal_->function(), literal_->job(passes_))
+                             : !blood_changes && passPairsAtOnce(passes_.forceFunction(viscous), forces);
   if (!both) {
     counter(Counter::neighbor_overflow) += passes_.density(grid_, particles_, walls_.share(), count_, shares_, *executor_);
     clock_.lap(Stage::density);
@@ -326,9 +330,10 @@ void WorldCore<Real>::computeAccelerations() {
     if (literal_) {
       literal_->add(grid_, particles_, passes_, count_, shares_, *executor_);
     } else {
-      passes_.force(grid_, particles_, count_, shares_, *executor_, viscous, clotting_due_);
+      passes_.force(grid_, particles_, count_, shares_, *executor_, viscous, forces);
     }
   }
+  if (clotting_ && clotting_due_) clotting_->diffuse(grid_, particles_, passes_, count_, shares_, *executor_);
   if (surface_tension_) surface_tension_->add(grid_, particles_, walls_, passes_, count_, shares_, *executor_);
   clock_.lap(Stage::force);
   if (solving_viscosity_) implicit_viscosity_->clearDrag(count_);

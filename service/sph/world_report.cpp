@@ -57,10 +57,8 @@ RunningCode WorldCore<Real>::runningCode() const {
   code.density = passes_.densityCode();
   code.pair_forces = literal_ ? literal_->forceCode() : passes_.forceCode(!solving_viscosity_);
   if (shear_rate_) code.shear_rate = shear_rate_->code();
-  if (surface_tension_) {
-    code.surface_normals = surface_tension_->normalsCode();
-    code.curvature = surface_tension_->curvatureCode();
-  }
+  if (clotting_) code.platelets = clotting_->code();
+  if (surface_tension_) code.curvature = surface_tension_->code();
   if (solving_viscosity_) code.viscous_product = implicit_viscosity_->code();
   return code;
 }

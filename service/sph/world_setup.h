@@ -57,7 +57,7 @@ inline PairSet pairSet(const WorldDescription& description) {
   if (effects.pressure) {
     set.pressure = effects.pressure->form == PressureForm::symmetric ? PressureTerm::symmetric : PressureTerm::variational;
   }
-  set.platelets = effects.platelets.has_value();
+  set.tension = effects.surface_tension.has_value();
   set.repulsion = effects.repulsion.has_value();
   set.core_radius = effects.core_radius.has_value();
   if (effects.viscosity) set.viscosity = viscosityVaries(description) ? ViscosityTerm::harmonic : ViscosityTerm::uniform;
@@ -174,32 +174,35 @@ inline KernelNorms pairNorms(const WorldDescription& description) {
   return {layers * density.weight, layers * gradient.gradient};
 }
 
+/// The prefactor K of viscosity-inl.h and platelets-inl.h, 2 m norm/h^5 and the rest lattice's factor.
+inline double laplacianPrefactor(const WorldDescription& description, const RestLattice& lattice) {
+  const double h = description.supportRadius();
+  const double per_volume = lattice.particle_mass / (std::numbers::pi * h * h * h);
+  return 2.0 * pairNorms(description).gradient * per_volume / (h * h) * lattice.viscosity_factor;
+}
+
 /// Prefactors of pressure-inl.h and viscosity-inl.h.
 template <class Real>
 PairConstants<Real> pairConstants(const WorldDescription& description, const RestLattice& lattice, double speed_of_sound) {
   const double h = description.supportRadius();
   const double per_volume = lattice.particle_mass / (std::numbers::pi * h * h * h);
   const KernelNorms norms = pairNorms(description);
-  const double laplacian = 2.0 * norms.gradient * per_volume / (h * h) * lattice.viscosity_factor;
   PairConstants<Real> constants;
   constants.mass_weight = static_cast<Real>(norms.weight * per_volume);
   constants.rest_density = static_cast<Real>(description.rest_density);
   if (description.effects.pressure) {
     constants.stiffness = static_cast<Real>(speed_of_sound * speed_of_sound);
     constants.background = static_cast<Real>(description.effects.pressure->background_pressure);
-    constants.pressure_scale = static_cast<Real>(norms.gradient * per_volume / h);
   }
   if (description.model == Model::literal) {
     if (description.effects.pressure) constants.stiffness = static_cast<Real>(literalStiffness(description, speed_of_sound));
     constants.pressure_floor = std::numeric_limits<Real>::lowest();
     return constants;  // the rest is literalJob's
   }
+  if (description.effects.pressure) constants.pressure_scale = static_cast<Real>(norms.gradient * per_volume / h);
   if (description.effects.viscosity) {
     const double mean = viscosityVaries(description) ? 2.0 : description.effects.viscosity->viscosity;
-    constants.viscosity_scale = static_cast<Real>(laplacian * mean);
-  }
-  if (description.effects.platelets) {
-    constants.platelet_scale = static_cast<Real>(0.5 * laplacian * description.effects.platelets->diffusivity);
+    constants.viscosity_scale = static_cast<Real>(laplacianPrefactor(description, lattice) * mean);
   }
   if (const auto& repulsion = description.effects.repulsion) {
     constants.repulsion_scale =
@@ -228,9 +231,12 @@ inline PairLayout pairLayout(const WorldDescription& description) {
     return {.set = {.pressure = set.pressure, .core_radius = set.core_radius},
             .tissue = !description.tissue.empty(),
             .planar = description.planar,
-            .least_groups = literalRecordGroups(set)};
+            .least_groups = literalRecordGroups(set),
+            .platelet_field = kRecordLiteralPlatelet};
   }
-  return {pairSet(description), !description.tissue.empty(), description.effects.surface_tension.has_value()};
+  return {.set = pairSet(description),
+          .tissue = !description.tissue.empty(),
+          .least_groups = description.effects.platelets ? kPlateletGroups : 1};
 }
 
 /// The arrays that a description calls for.

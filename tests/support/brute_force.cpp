@@ -112,7 +112,7 @@ OracleFields bruteForce(const sph::WorldDescription& d, sph::PairSet set, const 
         }
         fields.acceleration[i] += mass * 2.0 * viscosity / (own * other) * laplacian * velocity;
       }
-      if (set.platelets) {
+      if (d.effects.platelets) {
         fields.platelet_rate[i] += d.effects.platelets->diffusivity * mass * (1.0 / own + 1.0 / other) * laplacian *
                                    (particles.platelet[i] - particles.platelet[j]);
       }

@@ -19,7 +19,7 @@ class TensionRig : public test::ParticleRig<Real> {
              const std::vector<double>& radius = {})
       : test::ParticleRig<Real>{description,
                                 target,
-                                {.set = {}, .tissue = !description.tissue.empty(), .tension = true},
+                                {.set = {.tension = true, .core_radius = !radius.empty()}, .tissue = !description.tissue.empty()},
                                 withRadii(particles, radius, description.supportRadius()),
                                 shares,
                                 std::nullopt},
@@ -30,7 +30,7 @@ class TensionRig : public test::ParticleRig<Real> {
                wallConstants<Real>(description, this->lattice_, speedOfSound(description)), this->count_, shares},
         wounds_{description, speedOfSound(description)},
         tension_{*description.effects.surface_tension,
-                 test::sweepsOf<Real>({passChoice(description).periodic, !radius.empty()}, target),
+                 test::sweepsOf<Real>({passChoice(description).periodic, !radius.empty()}, target).curvature,
                  this->lattice_.particle_mass,
                  description.rest_density,
                  this->h_,
@@ -66,7 +66,9 @@ class TensionRig : public test::ParticleRig<Real> {
   void run() {
     walls_.sample(this->grid_, this->sorted_, wounds_, this->count_, this->shares_, *this->executor_);
     this->passes_.density(this->grid_, this->sorted_, walls_.share(), this->count_, this->shares_, *this->executor_);
-    this->passes_.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true, true);
+    ForceJob<Real> forces = this->passes_.forceJob();
+    forces.normals = tension_.begin(this->sorted_, walls_, this->passes_, this->shares_, *this->executor_);
+    this->passes_.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true, forces);
     tension_.add(this->grid_, this->sorted_, walls_, this->passes_, this->count_, this->shares_, *this->executor_);
     acceleration_ = this->vectorsOf(this->passes_.acceleration());
   }

@@ -12,23 +12,23 @@ constexpr double kNumber = 4.0;       // bytes of a number and of an entry
 constexpr double kListPlace = 5.0;    // bytes: where a particle's list is, and how long
 constexpr double kAcceleration = 16;  // bytes
 
-// Of a pair: offset (3) and squared distance (5).
-constexpr double kGeometry = 8.0;
+// Of a pair: offset (3) and squared distance (1; the distance stands in the list).
+constexpr double kGeometry = 4.0;
 // Of a candidate: against the box of a cell (12 of the distance, 6 of its square, 1 compare); against a particle.
 constexpr double kBoxTest = 19.0;
-constexpr double kDistanceTest = kGeometry + 1.0;
+constexpr double kDistanceTest = 9.0;
 
 bool isLiteral(const sph::WorldDescription& scene) { return scene.model == sph::Model::literal; }
 bool hasOwnRadii(const sph::WorldDescription& scene) { return scene.effects.core_radius.has_value(); }
 
-/// W or its gradient from q^2.
+/// W from q^2, with the root that the lists keep; its gradient from q.
 double weightFlops(const sph::WorldDescription& scene) {
   if (isLiteral(scene)) return 4.0;                                   // poly6: 1 - q2, max, u u u
   return scene.kernel == sph::KernelType::cubic_spline ? 12.0 : 8.0;  // root, two pieces; root, t, t^4 (5 - 4t)
 }
 double gradientFlops(const sph::WorldDescription& scene) {
-  if (isLiteral(scene)) return 6.0;                                  // spiky: root, t, t^2/q
-  return scene.kernel == sph::KernelType::cubic_spline ? 9.0 : 5.0;  // root, t, t^3
+  if (isLiteral(scene)) return 6.0;                                  // spiky: t, t^2, 1/q
+  return scene.kernel == sph::KernelType::cubic_spline ? 8.0 : 4.0;  // t, t^3
 }
 
 /// Both kernels of a pair with radii of their own, their factors and mean, for density.
@@ -44,9 +44,15 @@ double pressureFlops(sph::PressureTerm term) {
   return term == sph::PressureTerm::symmetric ? 10.0 : 8.0;
 }
 
+/// With the pressure from the neighbour's density.
+double literalPressureFlops(sph::PressureTerm term) {
+  if (term == sph::PressureTerm::none) return 0.0;
+  return term == sph::PressureTerm::symmetric ? 12.0 : 11.0;
+}
+
 double literalPairFlops(const sph::WorldDescription& scene) {
   const sph::LiteralSet set = sph::literalSet(scene);
-  double flops = kGeometry + gradientFlops(scene) + (set.core_radius ? 3.0 : 0.0) + pressureFlops(set.pressure);
+  double flops = kGeometry + gradientFlops(scene) + (set.core_radius ? 3.0 : 0.0) + literalPressureFlops(set.pressure);
   if (set.tension) flops += 13.0;  // colour gradient and Laplacian
   if (set.viscosity) flops += 11.0;
   if (set.platelets) flops += 5.0;
@@ -59,13 +65,13 @@ double soundGradientFlops(const sph::WorldDescription& scene) {
   return kGeometry + (hasOwnRadii(scene) ? 2.0 * (gradientFlops(scene) + 2.0) + 2.0 : gradientFlops(scene));
 }
 
-/// Curvature tension's two sweeps; the second is for surface particles only.
+/// Curvature tension: normals along with the forces, then a sweep for surface particles only.
 double tensionFlops(const sph::WorldDescription& scene, const Census& census) {
   const double gradient = soundGradientFlops(scene);
-  return census.listed * (gradient + 6.0 + census.surface * (gradient + densityPairFlops(scene) - 1.0 + 30.0));
+  return census.listed * (6.0 + census.surface * (gradient + densityPairFlops(scene) - 2.0 + 30.0));
 }
 
-double sweepBytes(const Census& census, double record) { return record + census.listed * kNumber + kListPlace; }
+double sweepBytes(const Census& census, double record) { return record + 2.0 * census.listed * kNumber + kListPlace; }
 
 Work forceWork(const sph::WorldDescription& scene, const Census& census, double record, int iterations) {
   const bool literal = isLiteral(scene);
@@ -76,8 +82,7 @@ Work forceWork(const sph::WorldDescription& scene, const Census& census, double 
     work += {census.listed * (soundGradientFlops(scene) + 38.0), sweepBytes(census, record) + 64.0};
   }
   if (scene.effects.surface_tension) {
-    work += {tensionFlops(scene, census),
-             sweepBytes(census, record) + census.surface * sweepBytes(census, record) + 3.0 * kAcceleration};
+    work += {tensionFlops(scene, census), census.surface * sweepBytes(census, record) + 3.0 * kAcceleration};
   }
   return work;
 }
@@ -96,7 +101,7 @@ double stateBytes(const sph::WorldDescription& scene) {
 
 int recordGroupsOf(const sph::WorldDescription& scene) {
   const sph::PairLayout layout = sph::pairLayout(scene);
-  return std::max(layout.least_groups, sph::recordGroups(layout.set, layout.tension));
+  return std::max(layout.least_groups, sph::recordGroups(layout.set));
 }
 
 }  // namespace
@@ -126,7 +131,7 @@ StageWork workOf(const sph::WorldDescription& scene, const Census& census, int s
   const double tissue = scene.tissue.empty() ? 0.0 : 1.0;
   at(sph::Stage::density) = {
       census.boxed * kBoxTest + census.candidates * kDistanceTest + census.listed * densityPairFlops(scene) + 8.0 + 2.0 * tissue,
-      place + tissue * kNumber + census.listed * kNumber + kListPlace + 2.0 * kNumber + kNumber};
+      place + tissue * kNumber + 2.0 * census.listed * kNumber + kListPlace + 2.0 * kNumber + kNumber};
   at(sph::Stage::force) = forceWork(scene, census, record, solver_iterations);
   // Gravity, the kick, both squares and bounds.
   at(sph::Stage::integrate) = {24.0, 2.0 * velocity + 2.0 * kAcceleration + kNumber};

@@ -5,6 +5,8 @@
 
 namespace bleedsim::sph {
 
+constexpr double kArrived = 1e-5;  // so near to the radius that it goes to, over h, a particle is there
+
 template <class Real>
 LatticeFactors<Real>::LatticeFactors(const SmoothingKernel& kernel, double spacing, const RadiusBounds& bounds) : scale_{bounds} {
   const RestLattice at_h = calibrateRestLattice(kernel, spacing, 1.0);
@@ -33,7 +35,9 @@ Real CoreRadius<Real>::update(Particles<Real>& p, const Real* density, std::uint
     const Real ratio = std::min(std::max(least_ratio_, volume), most_ratio_);
     const Real wanted = ratio == Real(1) ? Real(1) : cubeRoot(ratio);  // at rest density, as most are, without the root
     const Real moved = radius + relaxation_ * (wanted - radius);
-    return std::min(std::max(smallest_, moved), largest_);
+    // A radius that stays a rounding away from h for ever would be packed with divisions in every step.
+    const Real reached = std::abs(moved - wanted) < static_cast<Real>(kArrived) ? wanted : moved;
+    return std::min(std::max(smallest_, reached), largest_);
   });
 }
 

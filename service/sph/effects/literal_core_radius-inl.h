@@ -1,7 +1,7 @@
 // The paper's kernels in the pair loop, with one support radius for all particles or, with (34), the particle's own.
 //
 // Equation (34) of the paper; literal_core_radius.h moves the radii.
-//   density      norm/h_i^d weight(q2 (h/h_i)^2)      (density_pass-inl.h, SupportRadius::own)
+//   density      norm/h_i^d weight(q h/h_i)      (density_pass-inl.h, SupportRadius::own)
 //   grad, lap    norm/h_i^(d+2) of the same
 // terms: h_i m; d dimension. Only the own radius: what i feels of j is not what j feels of i where their radii differ.
 // Deviation from the paper: contacts (35) are seen out to h where h_i is smaller.
@@ -27,7 +27,7 @@ class CoreRadiusOf<L, false> {
  public:
   using Real = typename L::Scalar;
   explicit CoreRadiusOf(const Real*) {}
-  HWY_INLINE PaperWeights<L> weights(const Pair<L>& p) const { return {p.gradient, complementOf<L>(p.q2)}; }
+  HWY_INLINE PaperWeights<L> weights(const Pair<L>& p) const { return {p.gradient, complementOf<L>(p.q)}; }
   Real inverse2() const { return Real(1); }
   Real reach2() const { return Real(1); }
 };
@@ -38,16 +38,18 @@ class CoreRadiusOf<L, true> {
   using V = typename L::V;
   using Real = typename L::Scalar;
   explicit CoreRadiusOf(const Real* record)
-      : inverse2_{L::set(record[kRecordInverseRadius2])}, factor_{L::set(record[kRecordRadiusFactor])}, record_{record} {}
+      : inverse_{L::set(record[kRecordInverseRadius])},
+        factor_{L::set(record[kRecordRadiusFactor] * record[kRecordInverseRadius] * record[kRecordInverseRadius])},
+        record_{record} {}
   HWY_INLINE PaperWeights<L> weights(const Pair<L>& p) const {
-    const V q2 = p.q2 * inverse2_;
-    return {factor_ * Spiky<L>::gradient(q2), factor_ * complementOf<L>(q2)};
+    const V q = p.q * inverse_;
+    return {factor_ * Spiky<L>::gradient(q), factor_ * complementOf<L>(q)};
   }
-  Real inverse2() const { return record_[kRecordInverseRadius2]; }
+  Real inverse2() const { return record_[kRecordInverseRadius] * record_[kRecordInverseRadius]; }
   Real reach2() const { return ownReach2(record_); }
 
  private:
-  V inverse2_;
+  V inverse_;
   V factor_;
   const Real* record_;
 };

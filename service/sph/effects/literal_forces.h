@@ -58,7 +58,7 @@ class LiteralForces {
   void add(const CellGrid<Real>& grid, const Particles<Real>& p, PairPasses<Real>& passes, std::uint32_t count, int shares,
            Executor& executor) const {
     if (force_ == nullptr) {
-      passes.force(grid, p, count, shares, executor, true, true);
+      passes.clearAccelerations(grid, count, shares, executor);
       return;
     }
     passes.sweep(grid, p, count, shares, executor, force_, job(passes));

@@ -22,13 +22,14 @@ class LiteralPlatelets {
  public:
   using V = typename L::V;
   using Real = typename L::Scalar;
-  static constexpr int kGroups = 3;
+  static constexpr int kGroups = 2;
 
   LiteralPlatelets(const LiteralJob<Real>& job, const Real* record)
-      : scale_{L::set(job.platelet_scale)}, own_{L::set(record[kRecordPlatelet])} {}
+      : scale_{L::set(job.platelet_scale)}, own_{L::set(record[kRecordLiteralPlatelet])} {}
 
   HWY_INLINE void pair(const Pair<L>& p, const PaperWeights<L>& w, PairSums<L>& sums) const {
-    sums.rate = L::mulAdd(scale_ * (w.complement * p.field[kRecordInverseDensity]), p.field[kRecordPlatelet] - own_, sums.rate);
+    sums.rate =
+        L::mulAdd(scale_ * (w.complement * p.field[kRecordInverseDensity]), p.field[kRecordLiteralPlatelet] - own_, sums.rate);
   }
 
  private:

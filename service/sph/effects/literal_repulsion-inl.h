@@ -30,19 +30,15 @@ class LiteralRepulsion {
   LiteralRepulsion(const LiteralJob<Real>& job, const Real*) : job_{&job}, gap_{job.repulsion_powers} {}
 
   /// Table I's else: 0 between particles in contact, `value` between others.
-  HWY_INLINE V apart(const Pair<L>& p, V value) const {
-    return L::ifBelow(p.q2, L::set(job_->contact * job_->contact), L::set(Real(0)), value);
-  }
+  HWY_INLINE V apart(const Pair<L>& p, V value) const { return L::ifBelow(p.q, L::set(job_->contact), L::set(Real(0)), value); }
 
   HWY_INLINE void pair(const Pair<L>& p, const PaperWeights<L>&, PairSums<L>& sums) const {
     const V contact = L::set(job_->contact);
     const V one = L::set(Real(1));
-    const V inverse2 = inverseSquare<L>(p.q2);
-    const V inverse_distance = L::sqrt(p.q2) * inverse2;
-    const V capped2 = L::min(inverse2, L::set(Real(1e6)));
-    const V pe = L::max(contact * L::min(inverse_distance, L::set(Real(1e3))), one);
-    const V pe2 = L::max(contact * contact * capped2, one);
-    const V push = L::min(L::set(job_->repulsion_scale) * gap_(pe, pe2) * capped2, L::set(Real(1e15)));
+    const V inverse_distance = inverseDistance<L>(p.q);
+    const V capped = L::min(inverse_distance, L::set(Real(1e3)));
+    const V push =
+        L::min(L::set(job_->repulsion_scale) * gap_(L::max(contact * capped, one)) * (capped * capped), L::set(Real(1e15)));
     const V along = push * inverse_distance;
     sums.ax = L::subMul(sums.ax, along, p.dx);
     sums.ay = L::subMul(sums.ay, along, p.dy);

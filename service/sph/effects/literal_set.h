@@ -40,7 +40,7 @@ struct LiteralSet {
 /// Groups of record fields (pair_set.h) that a set reads, of the particle itself included.
 constexpr int literalRecordGroups(LiteralSet set) {
   if (set.viscosity || set.platelets || set.core_radius) return 3;
-  return set.pressure == PressureTerm::symmetric || set.tension ? 2 : 1;
+  return set.pressure != PressureTerm::none || set.tension ? 2 : 1;
 }
 
 }  // namespace bleedsim::sph

@@ -38,7 +38,7 @@ class LiteralTension {
     ny_ = L::mulAdd(slope, p.dy, ny_);
     nz_ = L::mulAdd(slope, p.dz, nz_);
     const V laplacian = L::subMul(L::set(Real(2)) * volume * w.complement, turns_, slope);
-    laplacian_ = laplacian_ + L::ifBelow(p.q2, L::set(Real(1e-12)), L::set(Real(0)), laplacian);
+    laplacian_ = laplacian_ + L::ifBelow(p.q, L::set(Real(1e-6)), L::set(Real(0)), laplacian);
   }
 
   /// Adds to the acceleration of the particle whose neighbours were all seen. `inverse_radius2`: (h/h_i)^2, as |n| h_i counts.

@@ -12,7 +12,7 @@ enum class ViscosityTerm : std::uint8_t { none, uniform, harmonic, count };
 struct PairSet {
   PressureTerm pressure = PressureTerm::none;
   ViscosityTerm viscosity = ViscosityTerm::none;
-  bool platelets = false;    ///< their diffusion (27)
+  bool tension = false;      ///< the normals of surface_tension are summed along
   bool repulsion = false;    ///< (35)(36)
   bool core_radius = false;  ///< (34): every particle has a support radius of its own
 
@@ -23,7 +23,7 @@ struct PairSet {
     return ((static_cast<std::size_t>(pressure) * static_cast<std::size_t>(ViscosityTerm::count) +
              static_cast<std::size_t>(viscosity)) *
                 8 +
-            (platelets ? 4 : 0) + (repulsion ? 2 : 0) + (core_radius ? 1 : 0));
+            (tension ? 4 : 0) + (repulsion ? 2 : 0) + (core_radius ? 1 : 0));
   }
   static constexpr PairSet at(std::size_t index) {
     constexpr auto kViscosities = static_cast<std::size_t>(ViscosityTerm::count);
@@ -32,10 +32,10 @@ struct PairSet {
   }
   /// No effect acts in the pair loop.
   constexpr bool empty() const {
-    return pressure == PressureTerm::none && viscosity == ViscosityTerm::none && !platelets && !repulsion;
+    return pressure == PressureTerm::none && viscosity == ViscosityTerm::none && !tension && !repulsion;
   }
-  /// Platelets make viscosity differ between particles; so does a support radius of its own, whose factor travels in 1/mu.
-  constexpr bool legal() const { return viscosity != ViscosityTerm::uniform || (!platelets && !core_radius); }
+  /// A support radius of their own makes viscosity differ between particles: its factor travels in 1/mu.
+  constexpr bool legal() const { return viscosity != ViscosityTerm::uniform || !core_radius; }
 
   friend constexpr bool operator==(const PairSet&, const PairSet&) = default;
 };
@@ -46,15 +46,16 @@ enum RecordField : int {
   kRecordX = 0,  ///< position / h
   kRecordY = 1,
   kRecordZ = 2,
-  kRecordPressure = 3,  ///< pressure scale * p/rho^2, or p for (17)
-  kRecordVx = 4,        ///< m/s
+  kRecordPressure = 3,         ///< pressure scale * p/rho^2, or p for (17); of the sound model
+  kRecordLiteralPlatelet = 3,  ///< P in the literal model, which has its pressure from the density
+  kRecordVx = 4,               ///< m/s
   kRecordVy = 5,
   kRecordVz = 6,
   kRecordInverseDensity = 7,    ///< m^3/kg
   kRecordInverseViscosity = 8,  ///< 1/(Pa s)
-  kRecordPlatelet = 9,          ///< P, 0 to 1
-  kRecordInverseRadius2 = 10,   ///< (h/h_i)^2; 1 without (34)
-  kRecordRadiusFactor = 11,     ///< (h/h_i)^(d+2) times the lattice's mass factor at h_i; 1 without (34)
+  kRecordPlatelet = 9,          ///< P, 0 to 1; of the sound model
+  kRecordInverseRadius = 10,    ///< h/h_i; 1 without (34)
+  kRecordRadiusFactor = 11,     ///< (h/h_i)^d times the lattice's mass factor at h_i; 1 without (34)
   kRecordNormalX = 12,          ///< unit surface normal, out of nothing into the fluid; 0 in the bulk
   kRecordNormalY = 13,
   kRecordNormalZ = 14,
@@ -62,11 +63,12 @@ enum RecordField : int {
 };
 
 constexpr int kMaxRecordGroups = 4;
+constexpr int kPlateletGroups = 3;  ///< that the diffusion of platelets reads
 
-/// `tension` has sweeps of its own, which read the fourth group.
-constexpr int recordGroups(PairSet set, bool tension = false) {
-  if (tension) return 4;
-  if (set.viscosity == ViscosityTerm::harmonic || set.platelets || set.core_radius) return 3;
+/// The fourth group is what `tension` writes for its second walk.
+constexpr int recordGroups(PairSet set) {
+  if (set.tension) return 4;
+  if (set.viscosity == ViscosityTerm::harmonic || set.core_radius) return 3;
   return set.viscosity == ViscosityTerm::uniform || set.pressure == PressureTerm::symmetric || set.repulsion ? 2 : 1;
 }
 

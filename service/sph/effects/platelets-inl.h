@@ -13,33 +13,40 @@
 #endif
 
 #include "service/sph/passes/pair_geometry-inl.h"
-#include "service/sph/passes/pass_jobs.h"
+#include "service/sph/passes/platelet_job.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
 
+/// A walk of its own: it is due in one of several steps (platelets.h).
 template <class L>
 class PlateletDiffusion {
  public:
   using V = typename L::V;
   using Real = typename L::Scalar;
-  static constexpr int kGroups = 3;
+  using Job = PlateletJob<Real>;
+  static constexpr int kGroups = kPlateletGroups;
 
-  PlateletDiffusion(const ForceJob<Real>& job, const Real* record)
-      : scale_{L::set(job.platelet_scale)},
-        own_inverse_{L::set(record[kRecordInverseDensity])},
-        own_{L::set(record[kRecordPlatelet])} {}
+  PlateletDiffusion(const Job& job, std::uint32_t, const Real* record)
+      : scale_{L::set(job.scale)}, own_inverse_{L::set(record[kRecordInverseDensity])}, own_{L::set(record[kRecordPlatelet])} {}
 
-  HWY_INLINE void pair(const Pair<L>& p, PairSums<L>& sums) const {
+  HWY_INLINE void pair(const Pair<L>& p) {
     const V exchange =
         scale_ * (own_inverse_ + p.field[kRecordInverseDensity]) * (p.q2 * p.gradient / (p.q2 + L::set(Real(0.01))));
-    sums.rate = L::mulAdd(exchange, p.field[kRecordPlatelet] - own_, sums.rate);
+    rate_ = L::mulAdd(exchange, p.field[kRecordPlatelet] - own_, rate_);
+  }
+
+  void finish(const Job& job, std::uint32_t i) const {
+    alignas(64) Real sums[4];
+    L::storeSums(rate_, L::set(Real(0)), L::set(Real(0)), L::set(Real(0)), sums);
+    job.acceleration[std::size_t{i} * 4 + 3] = sums[0];
   }
 
  private:
   V scale_;
   V own_inverse_;
   V own_;
+  V rate_ = L::set(Real(0));
 };
 
 }  // namespace bleedsim::sph::HWY_NAMESPACE

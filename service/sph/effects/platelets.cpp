@@ -32,8 +32,11 @@ Status checkPlatelets(const PlateletSettings& s) {
 }
 
 template <class Real>
-Clotting<Real>::Clotting(const PlateletSettings& settings, double spacing, double rest_density, const TissueField<Real>& tissue)
-    : longest_step_{0.005 / (settings.clot_speedup * (settings.activation_rate + settings.wall_rate + settings.air_rate) +
+Clotting<Real>::Clotting(const PlateletSettings& settings, SweepFunction<PlateletJob<Real>> sweep, double laplacian,
+                         double spacing, double rest_density, const TissueField<Real>& tissue)
+    : sweep_{sweep},
+      scale_{static_cast<Real>(0.5 * laplacian * settings.diffusivity)},
+      longest_step_{0.005 / (settings.clot_speedup * (settings.activation_rate + settings.wall_rate + settings.air_rate) +
                              settings.diffusivity / (spacing * spacing))},
       activation_{static_cast<Real>(settings.clot_speedup * settings.activation_rate)},
       wall_{static_cast<Real>(settings.clot_speedup * settings.wall_rate)},
@@ -41,6 +44,15 @@ Clotting<Real>::Clotting(const PlateletSettings& settings, double spacing, doubl
       inverse_gate_{static_cast<Real>(1.0 / settings.shear_gate)},
       inverse_density_{static_cast<Real>(1.0 / rest_density)} {
   if (!tissue.empty()) inverse_share_ = Real(1) / tissue.planeShareAt(static_cast<Real>(0.5 * spacing));
+}
+
+template <class Real>
+void Clotting<Real>::diffuse(const CellGrid<Real>& grid, const Particles<Real>& p, PairPasses<Real>& passes, std::uint32_t count,
+                             int shares, Executor& executor) const {
+  PlateletJob<Real> job;
+  job.scale = scale_;
+  job.acceleration = passes.acceleration();
+  passes.sweep(grid, p, count, shares, executor, sweep_, job);
 }
 
 template <class Real>

@@ -24,6 +24,7 @@
 #include "service/sph/neighbors/cell_grid.h"
 #include "service/sph/particles.h"
 #include "service/sph/passes/pair_passes.h"
+#include "service/sph/passes/sweep_table.h"
 #include "service/sph/tissue/wall_effects.h"
 #include "service/status/status.h"
 
@@ -38,11 +39,17 @@ Status checkPlatelets(const PlateletSettings& settings);
 template <class Real>
 class Clotting {
  public:
-  /// `spacing` dx in m, `rest_density` in kg/m^3.
-  Clotting(const PlateletSettings& settings, double spacing, double rest_density, const TissueField<Real>& tissue);
+  /// `spacing` dx in m, `rest_density` in kg/m^3; `laplacian` is the prefactor K of viscosity-inl.h.
+  Clotting(const PlateletSettings& settings, SweepFunction<PlateletJob<Real>> sweep, double laplacian, double spacing,
+           double rest_density, const TissueField<Real>& tissue);
 
   /// The most time that advance() may be given, s: 1/200 of the shortest time in which a sink or diffusion over dx would act.
   double longestStep() const { return longest_step_; }
+
+  /// Writes the rates of diffusion into the fourth component of the accelerations, after the pair forces.
+  void diffuse(const CellGrid<Real>& grid, const Particles<Real>& p, PairPasses<Real>& passes, std::uint32_t count, int shares,
+               Executor& executor) const;
+  std::uintptr_t code() const { return codeOf(sweep_); }
 
   /// Closes dt seconds: diffusion from the fourth component of the accelerations, then the sinks. `shear_rate` in 1/s,
   /// or null: 0 everywhere. `shares` as in the sampling of the walls.
@@ -50,6 +57,8 @@ class Clotting {
                const CellGrid<Real>& grid, Real dt, std::uint32_t count, int shares, Executor& executor) const;
 
  private:
+  SweepFunction<PlateletJob<Real>> sweep_;
+  Real scale_;              // PlateletJob
   double longest_step_;     // s
   Real activation_;         // s r, 1/s
   Real wall_;               // s k_w, 1/s

@@ -23,9 +23,9 @@ class PowerGap {
     difference_ = (powers[0] - powers[1]) >> halvings;
   }
 
-  /// pe >= 1 and its square.
-  HWY_INLINE V operator()(V pe, V pe2) const {
-    const V base = even_ ? pe2 : pe;
+  /// pe >= 1.
+  HWY_INLINE V operator()(V pe) const {
+    const V base = even_ ? pe * pe : pe;
     return power(base, lower_) * (power(base, difference_) - L::set(typename L::Scalar(1)));
   }
 

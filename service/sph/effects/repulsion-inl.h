@@ -39,17 +39,14 @@ class Repulsion {
     const V contact = L::set(job_.repulsion_contact);
     const V one = L::set(Real(1));
     const V deepest = L::set(job_.repulsion_overlap / job_.repulsion_contact);
-    // A particle is its own neighbour: at zero distance there is no direction and so no force. The division does not wait for the
-    // root, which the kernel takes, too.
-    const V inverse2 = one / L::max(p.q2, L::set(Real(1e-12)));
-    const V inverse_distance = L::sqrt(p.q2) * inverse2;
-    const V capped2 = L::min(inverse2, deepest * deepest);
-    const V pe = L::max(contact * L::min(inverse_distance, deepest), one);
-    const V pe2 = L::max(contact * contact * capped2, one);
-    const V push = L::set(job_.repulsion_scale) * gap_(pe, pe2) * capped2;
+    // A particle is its own neighbour: at zero distance there is no direction and so no force.
+    const V inverse_distance = p.q / L::max(p.q2, L::set(Real(1e-12)));
+    const V capped = L::min(inverse_distance, deepest);
+    const V pe = L::max(contact * capped, one);
+    const V push = L::set(job_.repulsion_scale) * gap_(pe) * (capped * capped);
     const V closing =
         L::mulAdd(p.field[kRecordVz] - vz_, p.dz, L::mulAdd(p.field[kRecordVy] - vy_, p.dy, (p.field[kRecordVx] - vx_) * p.dx));
-    const V drag = L::set(job_.repulsion_damping) * (pe - one) * closing * inverse2;
+    const V drag = L::set(job_.repulsion_damping) * (pe - one) * closing * (inverse_distance * inverse_distance);
     const V along = L::subMul(drag, push, inverse_distance);
     sums.ax = L::mulAdd(along, p.dx, sums.ax);
     sums.ay = L::mulAdd(along, p.dy, sums.ay);

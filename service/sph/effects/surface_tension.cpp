@@ -18,9 +18,9 @@ constexpr double kLeastTangent = 0.1;
 }  // namespace
 
 template <class Real>
-SurfaceTension<Real>::SurfaceTension(const SurfaceTensionSettings& settings, const SweepTable<Real>& sweeps, double mass,
+SurfaceTension<Real>::SurfaceTension(const SurfaceTensionSettings& settings, SweepFunction<CurvatureJob<Real>> sweep, double mass,
                                      double rest_density, double h, std::uint32_t capacity)
-    : sweeps_{&sweeps},
+    : sweep_{sweep},
       h_{static_cast<Real>(h)},
       normal_{std::size_t{capacity} * 4, 71},
       acceleration_{std::size_t{capacity} * 4, 73},
@@ -44,8 +44,8 @@ SurfaceTension<Real>::SurfaceTension(const SurfaceTensionSettings& settings, con
 }
 
 template <class Real>
-void SurfaceTension<Real>::add(const CellGrid<Real>& grid, const Particles<Real>& p, const WallEffects<Real>& walls,
-                               PairPasses<Real>& passes, std::uint32_t count, int shares, Executor& executor) {
+SurfaceNormals<Real> SurfaceTension<Real>::begin(const Particles<Real>& p, const WallEffects<Real>& walls,
+                                                 PairPasses<Real>& passes, int shares, Executor& executor) {
   if (!walls.empty()) {
     executor.run(shares, [&](int share) {
       walls.forEachTouching(share, [&](std::uint32_t i, const WallSample<Real>& wall, Real) {
@@ -53,11 +53,17 @@ void SurfaceTension<Real>::add(const CellGrid<Real>& grid, const Particles<Real>
       });
     });
   }
-  normals_.driver = p.driver.data();
-  normals_.surface = passes.record(0);
-  passes.sweep(grid, p, count, shares, executor, sweeps_->normals, normals_);
+  SurfaceNormals<Real> normals = normals_;
+  normals.driver = p.driver.data();
+  normals.record = passes.record(0);
+  return normals;
+}
+
+template <class Real>
+void SurfaceTension<Real>::add(const CellGrid<Real>& grid, const Particles<Real>& p, const WallEffects<Real>& walls,
+                               PairPasses<Real>& passes, std::uint32_t count, int shares, Executor& executor) {
   if (!walls.empty()) meetTissue(walls, passes, shares, executor);
-  passes.sweep(grid, p, count, shares, executor, sweeps_->curvature, curvature_);
+  passes.sweep(grid, p, count, shares, executor, sweep_, curvature_);
   addFreed(grid, p, passes, count, shares, executor);
 }
 

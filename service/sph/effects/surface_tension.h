@@ -52,16 +52,18 @@ namespace bleedsim::sph {
 template <class Real>
 class SurfaceTension {
  public:
-  /// `mass` of a particle, kg; `rest_density` kg/m^3; `h` m. The passes it works with must be laid out with PairLayout::tension.
-  SurfaceTension(const SurfaceTensionSettings& settings, const SweepTable<Real>& sweeps, double mass, double rest_density,
-                 double h, std::uint32_t capacity);
+  /// `mass` of a particle, kg; `rest_density` kg/m^3; `h` m. The passes it works with must have PairSet::tension.
+  SurfaceTension(const SurfaceTensionSettings& settings, SweepFunction<CurvatureJob<Real>> sweep, double mass,
+                 double rest_density, double h, std::uint32_t capacity);
 
-  /// Adds to the accelerations, after the densities and the pair forces. `walls` has sampled the same particles.
+  /// What a step's pair forces are given to find the normals. `walls` has sampled the same particles.
+  SurfaceNormals<Real> begin(const Particles<Real>& p, const WallEffects<Real>& walls, PairPasses<Real>& passes, int shares,
+                             Executor& executor);
+  /// Adds to the accelerations, after the pair forces.
   void add(const CellGrid<Real>& grid, const Particles<Real>& p, const WallEffects<Real>& walls, PairPasses<Real>& passes,
            std::uint32_t count, int shares, Executor& executor);
 
-  std::uintptr_t normalsCode() const { return codeOf(sweeps_->normals); }
-  std::uintptr_t curvatureCode() const { return codeOf(sweeps_->curvature); }
+  std::uintptr_t code() const { return codeOf(sweep_); }
   std::size_t bytes() const { return normal_.bytes() + acceleration_.bytes() + totals_.bytes() + bodies_.bytes(); }
 
  private:
@@ -81,9 +83,9 @@ class SurfaceTension {
                 Executor& executor);
   Total totalOf(std::uint32_t begin, std::uint32_t end) const;
 
-  const SweepTable<Real>* sweeps_;
+  SweepFunction<CurvatureJob<Real>> sweep_;
   Real h_;  // m
-  NormalJob<Real> normals_;
+  SurfaceNormals<Real> normals_;
   CurvatureJob<Real> curvature_;
   std::optional<ContactAngle> contact_;
   AlignedArray<Real> normal_;        // 4 per particle: n h; whether something holds the particle, 0 or 1

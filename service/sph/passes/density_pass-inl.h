@@ -265,7 +265,7 @@ class DensityPass {
 
   /// Pads the list to whole vectors and records where it is; returns its length in vectors.
   HWY_INLINE int closeList(std::uint32_t i, Hits& hits) {
-    L::storeUnaligned(reach2(), hits.q2 + hits.count);
+    L::storeUnaligned(L::set(kFarDistance<Real> * kFarDistance<Real>), hits.q2 + hits.count);
     L::storeIds(L::setIds(job_.count * stride_), hits.ids + hits.count);
     const int length = (hits.count + kWidth - 1) / kWidth;
     job_.blocks[i] = static_cast<std::uint8_t>(length);
@@ -278,8 +278,15 @@ class DensityPass {
     for (std::uint32_t k = 0; k < size; ++k) {
       V sum = L::set(Real(0));
       if (lengths_[k] > 0) {
-        const std::uint32_t* list = job_.lists->entries + static_cast<std::size_t>(job_.list_at[first + k]) * kWidth;
-        addWeights(first + k, q2_ + kMaxNeighbors * k, list, lengths_[k], sum);
+        const std::size_t at = static_cast<std::size_t>(job_.list_at[first + k]) * kWidth;
+        const Real* const q2 = q2_ + kMaxNeighbors * k;
+        Real* const distances = job_.lists->distances + at;
+        const auto distance = [&](int v) {
+          const V q = L::sqrt(L::load(q2 + v * kWidth));
+          L::store(q, distances + v * kWidth);
+          return q;
+        };
+        addWeights(first + k, distance, job_.lists->entries + at, lengths_[k], sum);
       }
       L::store(sum, sums_ + k * kWidth);
     }
@@ -299,7 +306,9 @@ class DensityPass {
     const Real inverse = Real(1) / density;
     const Real pressure = std::max(job_.pressure_floor, job_.background + job_.stiffness * (density - job_.rest_density));
     Real* record = job_.record + static_cast<std::size_t>(i) * stride_;
-    record[kRecordPressure] = job_.pressure_scale * pressure * (job_.symmetric ? Real(0.5) : inverse * inverse);
+    if (job_.pressure_scale != Real(0)) {
+      record[kRecordPressure] = job_.pressure_scale * pressure * (job_.symmetric ? Real(0.5) : inverse * inverse);
+    }
     if (job_.groups > 1) record[kRecordInverseDensity] = inverse;
     job_.density[i] = density;
   }
@@ -309,9 +318,11 @@ class DensityPass {
     V rows[kWidth];
     for (int r = 0; r < kWidth; ++r) rows[r] = L::set(Real(0));
     V sum = L::set(Real(0));
-    DirectSearch<L, kPeriodic>::run(
-        job_, runs, run_count, i, stride_, reach2Of(i),
-        [&](const Real* q2, const std::uint32_t* list, int vectors) { addWeights(i, q2, list, vectors, sum); });
+    DirectSearch<L, kPeriodic>::run(job_, runs, run_count, i, stride_, reach2Of(i),
+                                    [&](const Real* distances, const std::uint32_t* list, int vectors) {
+                                      addWeights(
+                                          i, [&](int v) { return L::load(distances + v * kWidth); }, list, vectors, sum);
+                                    });
     rows[0] = sum;
     alignas(64) Real sums[kWidth];
     L::store(L::sums(rows), sums);
@@ -320,28 +331,27 @@ class DensityPass {
     finish(i, sums[0]);
   }
 
-  HWY_INLINE void addWeights([[maybe_unused]] std::uint32_t i, const Real* q2, [[maybe_unused]] const std::uint32_t* list,
-                             int vectors, V& sum) const {
+  /// `distance` gives the distances of a vector of the list, by its number.
+  template <class Distance>
+  HWY_INLINE void addWeights([[maybe_unused]] std::uint32_t i, const Distance& distance,
+                             [[maybe_unused]] const std::uint32_t* list, int vectors, V& sum) const {
     if constexpr (kRadius == SupportRadius::common) {
-      for (int v = 0; v < vectors; ++v) sum = sum + Kernel::weight(L::load(q2 + v * kWidth));
+      for (int v = 0; v < vectors; ++v) sum = sum + Kernel::weight(distance(v));
       return;
     }
     const Real* own = job_.record + static_cast<std::size_t>(i) * stride_;
-    const V own_inverse2 = L::set(own[kRecordInverseRadius2]);
-    const V own_factor = L::set(own[kRecordRadiusFactor] / own[kRecordInverseRadius2]);  // (h/h_i)^d, calibrated
+    const V own_inverse = L::set(own[kRecordInverseRadius]);
+    const V own_factor = L::set(own[kRecordRadiusFactor]);
     if constexpr (kRadius == SupportRadius::own) {
-      for (int v = 0; v < vectors; ++v) {
-        sum = L::mulAdd(own_factor, Kernel::weight(L::load(q2 + v * kWidth) * own_inverse2), sum);
-      }
+      for (int v = 0; v < vectors; ++v) sum = L::mulAdd(own_factor, Kernel::weight(distance(v) * own_inverse), sum);
     } else if constexpr (kRadius == SupportRadius::mean) {
       for (int v = 0; v < vectors; ++v, list += kWidth) {
-        const V distance2 = L::load(q2 + v * kWidth);
+        const V q = distance(v);
         V field[4];
         L::gatherGroup(job_.record + kRecordInverseViscosity, list, field);
-        const V inverse2 = field[kRecordInverseRadius2 - kRecordInverseViscosity];
-        const V factor = field[kRecordRadiusFactor - kRecordInverseViscosity] / inverse2;
-        const V both =
-            L::mulAdd(own_factor, Kernel::weight(distance2 * own_inverse2), factor * Kernel::weight(distance2 * inverse2));
+        const V inverse = field[kRecordInverseRadius - kRecordInverseViscosity];
+        const V factor = field[kRecordRadiusFactor - kRecordInverseViscosity];
+        const V both = L::mulAdd(own_factor, Kernel::weight(q * own_inverse), factor * Kernel::weight(q * inverse));
         sum = L::mulAdd(L::set(Real(0.5)), both, sum);
       }
     }

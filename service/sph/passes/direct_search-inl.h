@@ -29,15 +29,15 @@ HWY_INLINE typename L::V distance2(typename L::V dx, typename L::V dy, typename 
 /// never less than h, out to which contacts are seen.
 template <class Real>
 HWY_INLINE Real ownReach2(const Real* record) {
-  return std::max(Real(1), Real(1) / record[kRecordInverseRadius2]);
+  return std::max(Real(1), Real(1) / (record[kRecordInverseRadius] * record[kRecordInverseRadius]));
 }
 
 /// Who gets the neighbours, as a plain function: the search is compiled once, not for every set of effects.
 template <class Real>
 struct ChunkSink {
-  void (*take)(void* taker, const Real* q2, const std::uint32_t* list, int vectors);
+  void (*take)(void* taker, const Real* distances, const std::uint32_t* list, int vectors);
   void* taker;
-  void operator()(const Real* q2, const std::uint32_t* list, int vectors) const { take(taker, q2, list, vectors); }
+  void operator()(const Real* distances, const std::uint32_t* list, int vectors) const { take(taker, distances, list, vectors); }
 };
 
 template <class L, bool kPeriodic>
@@ -46,12 +46,13 @@ class DirectSearch {
   using Real = typename L::Scalar;
   using V = typename L::V;
 
-  /// Calls consume(squared distances, record offsets, vectors) with the neighbours of particle i nearer than sqrt(reach2), padded
-  /// to whole vectors with q2 = reach2 and the far dummy, record `count`. `job` has x, y, z and count.
+  /// Calls consume(distances, record offsets, vectors) with the neighbours of particle i nearer than sqrt(reach2), padded to
+  /// whole vectors with the far dummy, record `count`, at kFarDistance. `job` has x, y, z and count.
   template <class Job, class Consume>
   HWY_NOINLINE static void run(const Job& job, const NeighborRun<Real>* runs, int run_count, std::uint32_t i,
                                std::uint32_t stride, Real reach2, const Consume& consume) {
     alignas(64) Real q2[kChunk + 2 * kWidth];
+    alignas(64) Real distances[kChunk];
     alignas(64) std::uint32_t ids[kChunk + 2 * kWidth];
     int count = 0;
     const V own_x = L::set(job.x[i]);
@@ -73,15 +74,17 @@ class DirectSearch {
         L::compress(L::idRow(j * stride, stride), inside, ids + count);
         count += L::countTrue(inside);
         if (count < kChunk) continue;
-        consume(q2, ids, kChunk / kWidth);
+        takeRoots(q2, kChunk / kWidth, distances);
+        consume(distances, ids, kChunk / kWidth);
         L::store(L::load(q2 + kChunk), q2);
         L::storeIds(L::loadIds(ids + kChunk), ids);
         count -= kChunk;
       }
     }
-    L::storeUnaligned(L::set(reach2), q2 + count);
+    L::storeUnaligned(L::set(kFarDistance<Real> * kFarDistance<Real>), q2 + count);
     L::storeIds(L::setIds(job.count * stride), ids + count);
-    consume(q2, ids, (count + kWidth - 1) / kWidth);
+    takeRoots(q2, (count + kWidth - 1) / kWidth, distances);
+    consume(distances, ids, (count + kWidth - 1) / kWidth);
   }
 
   /// The same for a particle of which only the grid's row is known.
@@ -95,6 +98,10 @@ class DirectSearch {
   }
 
  private:
+  static void takeRoots(const Real* q2, int vectors, Real* distances) {
+    for (int v = 0; v < vectors; ++v) L::store(L::sqrt(L::load(q2 + v * kWidth)), distances + v * kWidth);
+  }
+
   static constexpr int kWidth = L::kWidth;
   static constexpr int kChunk = 128;
 };

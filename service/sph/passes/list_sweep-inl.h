@@ -33,7 +33,8 @@ class ListSweep {
       const std::uint32_t end = job.grid.rowEnd(row);
       for (std::uint32_t i = job.grid.rowBegin(row); i < end; ++i) {
         if (job.blocks[i] != kOverflowList) {
-          particle(job, i, job.entries + static_cast<std::size_t>(job.list_at[i]) * L::kWidth, job.blocks[i]);
+          const std::size_t at = static_cast<std::size_t>(job.list_at[i]) * L::kWidth;
+          particle(job, i, {job.entries + at, job.distances + at, job.blocks[i]});
         } else {
           particleWithoutList(job, i, row);
         }
@@ -44,6 +45,12 @@ class ListSweep {
  private:
   static constexpr int kGroups = kRadius && Body::kGroups < 3 ? 3 : Body::kGroups;
 
+  struct List {
+    const std::uint32_t* entries;
+    const Real* distances;
+    int blocks;  // vectors
+  };
+
   HWY_INLINE static bool isNeeded(const Body& body) {
     if constexpr (requires { body.needed(); })
       return body.needed();
@@ -51,33 +58,38 @@ class ListSweep {
       return true;
   }
 
-  static void particle(const Job& job, std::uint32_t i, const std::uint32_t* list, int blocks) {
+  static void particle(const Job& job, std::uint32_t i, List list) {
     const Real* own = job.record + static_cast<std::size_t>(i) * static_cast<std::uint32_t>(4 * job.groups);
     Body body{job, i, own};
-    if (isNeeded(body)) walk(job, own, list, blocks, body);
+    if (isNeeded(body)) walk(job, own, list, body);
     body.finish(job, i);
   }
 
-  HWY_INLINE static void walk(const Job& job, const Real* own, const std::uint32_t* list, int blocks, Body& body) {
+  HWY_INLINE static void walk(const Job& job, const Real* own, List list, Body& body) {
     if constexpr (requires { Body::kCompact; })
-      addBlocksApart(job, own, list, blocks, body);
+      addBlocksApart(job, own, list, body);
     else
-      addBlocks(job, own, list, blocks, body);
+      addBlocks(job, own, list, body);
   }
 
-  HWY_NOINLINE static void addBlocksApart(const Job& job, const Real* own, const std::uint32_t* list, int blocks, Body& body) {
+  HWY_NOINLINE static void addBlocksApart(const Job& job, const Real* own, List list, Body& body) {
     Body in_registers = body;
-    addBlocks(job, own, list, blocks, in_registers);
+    addBlocks(job, own, list, in_registers);
     body = in_registers;
   }
 
-  HWY_INLINE static void addBlocks(const Job& job, const Real* own, const std::uint32_t* list, int blocks, Body& body) {
+  HWY_INLINE static void addBlocks(const Job& job, const Real* own, List list, Body& body) {
     const V x = L::set(own[kRecordX]);
     const V y = L::set(own[kRecordY]);
     const V z = L::set(own[kRecordZ]);
-    for (; blocks > 0; --blocks, list += L::kWidth) {
+    [[maybe_unused]] V own_inverse, own_factor;
+    if constexpr (kRadius) {
+      own_inverse = L::set(own[kRecordInverseRadius]);
+      own_factor = L::set(Real(0.5) * own[kRecordRadiusFactor] * own[kRecordInverseRadius] * own[kRecordInverseRadius]);
+    }
+    for (; list.blocks > 0; --list.blocks, list.entries += L::kWidth, list.distances += L::kWidth) {
       Pair<L> p;
-      gatherGroups(job.record, list, p.field);
+      gatherGroups(job.record, list.entries, p.field);
       p.dx = p.field[kRecordX] - x;
       p.dy = p.field[kRecordY] - y;
       p.dz = p.field[kRecordZ] - z;
@@ -86,14 +98,15 @@ class ListSweep {
         p.dy = nearest(p.dy, job.grid.periodic[1], job.grid.period[1]);
         p.dz = nearest(p.dz, job.grid.periodic[2], job.grid.period[2]);
       }
-      p.q2 = L::mulAdd(p.dz, p.dz, L::mulAdd(p.dy, p.dy, p.dx * p.dx));
-      p.list = list;
+      p.q = L::load(list.distances);
+      p.q2 = p.q * p.q;
+      p.list = list.entries;
       if constexpr (kRadius) {
-        const V mine = L::set(own[kRecordRadiusFactor]) * Kernel::gradient(p.q2 * L::set(own[kRecordInverseRadius2]));
-        const V theirs = p.field[kRecordRadiusFactor] * Kernel::gradient(p.q2 * p.field[kRecordInverseRadius2]);
-        p.gradient = L::set(Real(0.5)) * (mine + theirs);
+        const V inverse = p.field[kRecordInverseRadius];
+        const V factor = L::set(Real(0.5)) * p.field[kRecordRadiusFactor] * (inverse * inverse);
+        p.gradient = L::mulAdd(own_factor, Kernel::gradient(p.q * own_inverse), factor * Kernel::gradient(p.q * inverse));
       } else {
-        p.gradient = Kernel::gradient(p.q2);
+        p.gradient = Kernel::gradient(p.q);
       }
       body.pair(p);
     }
@@ -120,9 +133,9 @@ class ListSweep {
     const Real* own;
     Body* body;
   };
-  static void addChunk(void* taker, const Real*, const std::uint32_t* list, int blocks) {
+  static void addChunk(void* taker, const Real* distances, const std::uint32_t* list, int blocks) {
     const Apart& apart = *static_cast<const Apart*>(taker);
-    walk(*apart.job, apart.own, list, blocks, *apart.body);
+    walk(*apart.job, apart.own, {list, distances, blocks}, *apart.body);
   }
 
   /// A particle without a list: its neighbours come straight from the cells.

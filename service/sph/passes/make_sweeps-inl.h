@@ -6,8 +6,9 @@
 #define BLEEDSIM_SPH_PASSES_MAKE_SWEEPS_INL_H_
 #endif
 
+#include "service/sph/effects/curvature-inl.h"
+#include "service/sph/effects/platelets-inl.h"
 #include "service/sph/effects/shear_rate-inl.h"
-#include "service/sph/effects/tension_sweeps-inl.h"
 #include "service/sph/effects/viscous_product-inl.h"
 #include "service/sph/passes/list_sweep-inl.h"
 #include "service/sph/passes/sweep_table.h"
@@ -19,10 +20,10 @@ template <class L, bool kPeriodic, bool kRadius>
 constexpr SweepTable<typename L::Scalar> makeSweeps() {
   SweepTable<typename L::Scalar> table;
   table.shear_rate = &ListSweep<L, WendlandC2, kPeriodic, kRadius, ShearMoments<L>>::run;
+  table.platelets = &ListSweep<L, WendlandC2, kPeriodic, kRadius, PlateletDiffusion<L>>::run;
   table.viscous_product = &ListSweep<L, WendlandC2, kPeriodic, kRadius, ViscousProduct<L, true>>::run;
   if constexpr (!kRadius)
     table.uniform_viscous_product = &ListSweep<L, WendlandC2, kPeriodic, false, ViscousProduct<L, false>>::run;
-  table.normals = &ListSweep<L, WendlandC2, kPeriodic, kRadius, NormalBody<L>>::run;
   table.curvature = &ListSweep<L, WendlandC2, kPeriodic, kRadius, CurvatureBody<L, kRadius>>::run;
   return table;
 }

@@ -6,9 +6,9 @@
 #define BLEEDSIM_SPH_PASSES_MAKE_TABLE_INL_H_
 #endif
 
+#include <type_traits>
 #include <utility>
 
-#include "service/sph/effects/platelets-inl.h"
 #include "service/sph/effects/pressure-inl.h"
 #include "service/sph/effects/repulsion-inl.h"
 #include "service/sph/effects/viscosity-inl.h"
@@ -41,13 +41,13 @@ constexpr auto effectsOf() {
   return effectsIf<kSet.pressure == PressureTerm::variational, VariationalPressure<L>>() +
          effectsIf<kSet.pressure == PressureTerm::symmetric, SymmetricPressure<L>>() +
          effectsIf<kSet.viscosity == ViscosityTerm::uniform, Viscosity<L, false>>() +
-         effectsIf<kSet.viscosity == ViscosityTerm::harmonic, Viscosity<L, true>>() +
-         effectsIf<kSet.platelets, PlateletDiffusion<L>>() + effectsIf<kSet.repulsion, Repulsion<L>>();
+         effectsIf<kSet.viscosity == ViscosityTerm::harmonic, Viscosity<L, true>>() + effectsIf<kSet.repulsion, Repulsion<L>>();
 }
 
 template <class L, template <class> class Kernel, bool kPeriodic, PairSet kSet, class... Effects>
 constexpr ForceFunction<typename L::Scalar> forcePass(EffectTypes<Effects...>) {
-  return &ListSweep<L, Kernel, kPeriodic, kSet.core_radius, ForceBody<L, Effects...>>::run;
+  using Normals = std::conditional_t<kSet.tension, NormalSums<L>, NoNormals<L>>;
+  return &ListSweep<L, Kernel, kPeriodic, kSet.core_radius, ForceBody<L, Normals, Effects...>>::run;
 }
 
 /// Which sets a translation unit compiles: all of them, or pressure and viscosity alone.
@@ -56,7 +56,7 @@ enum class SetRange { all, plain };
 template <class L, template <class> class Kernel, bool kPeriodic, SetRange kRange, std::size_t kIndex>
 constexpr ForceFunction<typename L::Scalar> passAt() {
   constexpr PairSet kSet = PairSet::at(kIndex);
-  constexpr bool kPlain = !kSet.platelets && !kSet.repulsion && !kSet.core_radius;
+  constexpr bool kPlain = !kSet.tension && !kSet.repulsion && !kSet.core_radius;
   if constexpr (kSet.empty() || !kSet.legal() || (kRange == SetRange::plain && !kPlain))
     return nullptr;
   else

@@ -18,7 +18,8 @@ namespace bleedsim::sph::HWY_NAMESPACE {
 template <class L>
 struct Pair {
   typename L::V dx, dy, dz;                   ///< (x_j - x_i) / h
-  typename L::V q2;                           ///< (r/h)^2
+  typename L::V q;                            ///< r/h
+  typename L::V q2;                           ///< its square
   typename L::V gradient;                     ///< of the kernel (kernels-inl.h); 0 beyond the support
   typename L::V field[4 * kMaxRecordGroups];  ///< the neighbours' record fields
   const std::uint32_t* list;                  ///< their record offsets

@@ -28,7 +28,6 @@ struct PairConstants {
   Real pressure_floor = 0;
   Real pressure_scale = 0;
   Real viscosity_scale = 0;
-  Real platelet_scale = 0;
   Real repulsion_scale = 0;
   Real repulsion_contact = 0;
   Real repulsion_overlap = 2;
@@ -40,9 +39,9 @@ struct PairConstants {
 struct PairLayout {
   PairSet set;
   bool tissue = false;
-  bool tension = false;  ///< the records hold the surface's normals
   bool planar = false;
   int least_groups = 1;  ///< of record fields, for passes that the set does not name
+  RecordField platelet_field = kRecordPlatelet;
 };
 
 template <class Real>
@@ -53,11 +52,11 @@ class PairPasses {
   PairPasses(const PassTable<Real>& table, const PairLayout& layout, const PairConstants<Real>& constants, std::uint32_t capacity,
              double support_ratio, int shares, const std::optional<LatticeFactors<Real>>& lattice = std::nullopt)
       : density_function_{table.density[layout.tissue ? 1 : 0][layout.set.core_radius ? 1 : 0]},
-        force_functions_{{{forceOf(table, layout.set, false, false), forceOf(table, layout.set, false, true)},
-                          {forceOf(table, layout.set, true, false), forceOf(table, layout.set, true, true)}}},
+        force_functions_{forceOf(table, layout.set, false), forceOf(table, layout.set, true)},
         symmetric_{layout.set.pressure == PressureTerm::symmetric},
         planar_{layout.planar},
-        groups_{std::max(layout.least_groups, recordGroups(layout.set, layout.tension))},
+        platelet_field_{layout.platelet_field},
+        groups_{std::max(layout.least_groups, recordGroups(layout.set))},
         constants_{constants},
         lattice_{lattice},
         record_{(std::size_t{capacity} + 1) * static_cast<std::size_t>(4 * groups_), 37},
@@ -71,7 +70,9 @@ class PairPasses {
     const std::size_t per_particle = static_cast<std::size_t>(1.2 * neighbors) + 24;
     for (int share = 0; share < shares; ++share) {
       entries_.emplace_back(std::size_t{capacity} * per_particle + 64 * kMaxNeighbors, 59u, Uninitialized{});
-      lists_.push_back({.entries = entries_.back().data(), .capacity = entries_.back().size()});
+      distances_.emplace_back(entries_.back().size(), 61u, Uninitialized{});
+      lists_.push_back(
+          {.entries = entries_.back().data(), .distances = distances_.back().data(), .capacity = entries_.back().size()});
     }
     overflowed_.resize(static_cast<std::size_t>(shares));
   }
@@ -90,7 +91,7 @@ class PairPasses {
     if (groups_ > 2) {
       packRadius(record, p.radius.empty() ? Real(1) : p.radius[i]);
       setInverseViscosity(i, p.inverse_viscosity.empty() ? Real(1) : p.inverse_viscosity[i]);
-      record[kRecordPlatelet] = p.platelet.empty() ? Real(0) : p.platelet[i];
+      record[platelet_field_] = p.platelet.empty() ? Real(0) : p.platelet[i];
     }
     if (groups_ > 3) std::fill_n(record + kRecordNormalX, 4, Real(0));
   }
@@ -158,30 +159,32 @@ class PairPasses {
     return overflowed(shares);
   }
 
-  /// Accelerations by all pair effects, but for those that this step does without: viscosity where it is solved implicitly, the
-  /// platelets' diffusion where it is not due. Zero when there is none. `shares` as in density().
+  /// Accelerations by all pair effects, but for viscosity where it is solved implicitly. Zero when there is none. `shares` as in
+  /// density(); `job` by forceJob().
   void force(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int shares, Executor& executor,
-             bool viscous, bool platelets) {
-    const ForceFunction<Real> function = forceFunction(viscous, platelets);
+             bool viscous, const ForceJob<Real>& job) {
+    const ForceFunction<Real> function = forceFunction(viscous);
     if (function == nullptr) {
-      executor.run(shares, [&](int share) {
-        const auto begin = grid.view().rowBegin(grid.firstRow(share, shares, count));
-        const auto end = grid.view().rowBegin(grid.firstRow(share + 1, shares, count));
-        std::fill(acceleration_.data() + 4 * std::size_t{begin}, acceleration_.data() + 4 * std::size_t{end}, Real(0));
-      });
+      clearAccelerations(grid, count, shares, executor);
       return;
     }
-    sweep(grid, p, count, shares, executor, function, forceJob());
+    sweep(grid, p, count, shares, executor, function, job);
+  }
+
+  void clearAccelerations(const CellGrid<Real>& grid, std::uint32_t count, int shares, Executor& executor) {
+    executor.run(shares, [&](int share) {
+      const auto begin = grid.view().rowBegin(grid.firstRow(share, shares, count));
+      const auto end = grid.view().rowBegin(grid.firstRow(share + 1, shares, count));
+      std::fill(acceleration_.data() + 4 * std::size_t{begin}, acceleration_.data() + 4 * std::size_t{end}, Real(0));
+    });
   }
 
   /// What force() runs; null where no effect acts in the pair loop.
-  ForceFunction<Real> forceFunction(bool viscous, bool platelets) const {
-    return force_functions_[viscous ? 1 : 0][platelets ? 1 : 0];
-  }
+  ForceFunction<Real> forceFunction(bool viscous) const { return force_functions_[viscous ? 1 : 0]; }
+  /// Sets with tension want normals, too (SurfaceTension::begin).
   ForceJob<Real> forceJob() {
     ForceJob<Real> job;
     job.viscosity_scale = constants_.viscosity_scale;
-    job.platelet_scale = constants_.platelet_scale;
     job.repulsion_scale = growth_ * growth_ * growth_ * constants_.repulsion_scale;
     job.repulsion_contact = growth_ * constants_.repulsion_contact;
     job.repulsion_overlap = constants_.repulsion_overlap;
@@ -206,13 +209,13 @@ class PairPasses {
   /// The one place where a record gets its 1/mu, 1/(Pa s), with the lattice's factor on mu at the particle's own radius; the set
   /// of effects must have the third group.
   void setInverseViscosity(std::size_t i, Real inverse_viscosity) {
-    record(i)[kRecordInverseViscosity] = lattice_ ? inverse_viscosity / viscosityFactor(i) : inverse_viscosity;
+    const Real factor = viscosityFactor(i);
+    record(i)[kRecordInverseViscosity] = factor != Real(1) ? inverse_viscosity / factor : inverse_viscosity;
   }
   /// The lattice's factor on mu at particle i's own radius, over that at h.
   Real viscosityFactor(std::size_t i) const {
-    if (!lattice_) return Real(1);
-    const Real* own = record_.data() + i * static_cast<std::size_t>(4 * groups_);
-    return lattice_->viscosity(Real(1) / std::sqrt(own[kRecordInverseRadius2]));
+    const Real inverse_radius = record_[i * static_cast<std::size_t>(4 * groups_) + kRecordInverseRadius];
+    return lattice_ && inverse_radius != Real(1) ? lattice_->viscosity(Real(1) / inverse_radius) : Real(1);
   }
 
   /// How far the lists reach, over h: at least 1 and at least the largest radius that pack() will see.
@@ -228,12 +231,12 @@ class PairPasses {
   std::size_t listBytes() const {
     std::size_t sum = 0;
     for (const AlignedArray<std::uint32_t>& entries : entries_) sum += entries.bytes();
+    for (const AlignedArray<Real>& distances : distances_) sum += distances.bytes();
     return sum;
   }
 
   std::uintptr_t densityCode() const { return codeOf(density_function_); }
-  /// Of the steps with diffusing platelets.
-  std::uintptr_t forceCode(bool viscous) const { return codeOf(forceFunction(viscous, true)); }
+  std::uintptr_t forceCode(bool viscous) const { return codeOf(forceFunction(viscous)); }
 
   Real* acceleration() { return acceleration_.data(); }
   const Real* acceleration() const { return acceleration_.data(); }
@@ -283,7 +286,7 @@ class PairPasses {
   /// All but the rows; the share's lists begin anew.
   DensityJob<Real> densityJob(const CellGrid<Real>& grid, const Particles<Real>& p, const Real* wall_share, std::uint32_t count,
                               int share) {
-    NeighborLists& lists = lists_[static_cast<std::size_t>(share)];
+    NeighborLists<Real>& lists = lists_[static_cast<std::size_t>(share)];
     lists.used = 0;
     DensityJob<Real> job;
     job.grid = grid.view();
@@ -322,6 +325,7 @@ class PairPasses {
     own.z = p.z.data();
     own.record = record_.data();
     own.entries = lists_[static_cast<std::size_t>(share)].entries;
+    own.distances = lists_[static_cast<std::size_t>(share)].distances;
     own.list_at = list_at_.data();
     own.blocks = blocks_.data();
     own.reach2 = reach_ * reach_;
@@ -329,30 +333,34 @@ class PairPasses {
     return own;
   }
 
-  static ForceFunction<Real> forceOf(const PassTable<Real>& table, PairSet set, bool viscous, bool platelets) {
+  static ForceFunction<Real> forceOf(const PassTable<Real>& table, PairSet set, bool viscous) {
     if (!viscous) set.viscosity = ViscosityTerm::none;
-    if (!platelets) set.platelets = false;
     return table.force[set.index()];
   }
 
   void packRadius(Real* record, Real radius) const {
-    const Real inverse2 = Real(1) / (radius * radius);
-    record[kRecordInverseRadius2] = inverse2;
-    const Real factor = inverse2 * inverse2 / (planar_ ? Real(1) : radius);
+    if (radius == Real(1)) {
+      record[kRecordInverseRadius] = record[kRecordRadiusFactor] = Real(1);
+      return;
+    }
+    const Real inverse = Real(1) / radius;
+    record[kRecordInverseRadius] = inverse;
+    const Real factor = inverse * inverse * (planar_ ? Real(1) : inverse);
     record[kRecordRadiusFactor] = factor * (lattice_ ? lattice_->mass(radius) : Real(1));
   }
 
   /// The far dummy touches nothing and keeps every division defined.
   static Real dummyField(int field) {
     if (field <= kRecordZ) return Real(1e6);
-    const bool divisor = field == kRecordInverseViscosity || field == kRecordInverseRadius2 || field == kRecordRadiusFactor;
+    const bool divisor = field == kRecordInverseViscosity || field == kRecordInverseRadius || field == kRecordRadiusFactor;
     return divisor ? Real(1) : Real(0);
   }
 
   DensityFunction<Real> density_function_;
-  std::array<std::array<ForceFunction<Real>, 2>, 2> force_functions_;  // [with viscosity][with platelets]
+  std::array<ForceFunction<Real>, 2> force_functions_;  // [with viscosity]
   bool symmetric_;
   bool planar_;
+  RecordField platelet_field_;
   int groups_;
   PairConstants<Real> constants_;
   Real growth_ = 1;                              // of the contact distance
@@ -365,7 +373,8 @@ class PairPasses {
   AlignedArray<std::uint8_t> blocks_;
   AlignedArray<std::byte> room_;  // of the density passes, for each share
   std::vector<AlignedArray<std::uint32_t>> entries_;
-  std::vector<NeighborLists> lists_;
+  std::vector<AlignedArray<Real>> distances_;
+  std::vector<NeighborLists<Real>> lists_;
   std::vector<std::uint64_t> overflowed_;
   Real reach_ = 1;
 };

@@ -11,6 +11,10 @@ namespace bleedsim::sph {
 constexpr int kMaxNeighbors = 192;           ///< a list's length; more go the slow path
 constexpr std::uint8_t kOverflowList = 255;  ///< in NeighborLists::blocks: this particle takes the slow path
 
+/// How far the dummy that pads lists is in every list, over h: beyond all support.
+template <class Real>
+inline constexpr Real kFarDistance = Real(1e6);
+
 /// What a density pass keeps of a cell at work, for each thread, bytes; on a page's border.
 template <class Real>
 inline constexpr std::size_t kDensityRoom = sizeof(Real) * 32768;
@@ -19,9 +23,12 @@ inline constexpr std::size_t kDensityRoom = sizeof(Real) * 32768;
 /// (34)), or the particle's own (the literal model's).
 enum class SupportRadius : std::uint8_t { common, mean, own };
 
-/// The padded neighbour lists of one share. An entry is the neighbour's record offset in scalars.
+/// The padded neighbour lists of one share. An entry is the neighbour's record offset in scalars; beside it stands the distance,
+/// so that no walk over the lists takes a root: it would wait for the neighbour's place.
+template <class Real>
 struct NeighborLists {
   std::uint32_t* entries = nullptr;
+  Real* distances = nullptr;  ///< / h
   std::size_t capacity = 0;
   std::size_t used = 0;
 };
@@ -43,11 +50,11 @@ struct DensityJob {
   Real stiffness = 0;            ///< c0^2, m^2/s^2; 0 without pressure
   Real background = 0;           ///< Pa
   Real pressure_floor = 0;       ///< Pa: 0, or none in the literal model
-  Real pressure_scale = 0;       ///< makes the record's pressure term, kRecordPressure
+  Real pressure_scale = 0;       ///< makes the record's pressure term, kRecordPressure; 0: it has none
   bool symmetric = false;        ///< kRecordPressure is for (17)
 
   std::byte* room = nullptr;  ///< kDensityRoom, of this share alone
-  NeighborLists* lists = nullptr;
+  NeighborLists<Real>* lists = nullptr;
   std::uint32_t* list_at = nullptr;  ///< per particle, in the share's entries
   std::uint8_t* blocks = nullptr;    ///< per particle, list length in vectors, or kOverflowList
   Real* record = nullptr;
@@ -66,22 +73,34 @@ struct SweepJob {
   const Real* z = nullptr;
   const Real* record = nullptr;
   const std::uint32_t* entries = nullptr;
+  const Real* distances = nullptr;
   const std::uint32_t* list_at = nullptr;
   const std::uint8_t* blocks = nullptr;
   Real reach2 = 1;  ///< as in DensityJob
   int groups = 1;   ///< record groups: the stride
 };
 
+/// Surface normals, effects/surface_tension.h. Particle i's record starts with the tissue's share of n h in its normal fields and
+/// ends with the fields of RecordField: unit normal and weight, zeros where the particle is no surface.
+template <class Real>
+struct SurfaceNormals {
+  const std::uint32_t* driver = nullptr;  ///< particles of a throat stand for tissue and are never surface
+  Real scale = 0;                         ///< V0/h^3 x the gradient's norm, 1
+  Real cutoff = 0;                        ///< of |n| h
+  Real* record = nullptr;                 ///< record 0, to write
+  Real* normal = nullptr;                 ///< 4 per particle: n h; 1 for a particle of a throat, else 0
+};
+
 template <class Real>
 struct ForceJob : SweepJob<Real> {
   Real viscosity_scale = 0;    ///< uniform: K mu; harmonic: 2 K; K = calibrated kernel prefactor
-  Real platelet_scale = 0;     ///< K k/2, m^3/(kg s)
   Real repulsion_scale = 0;    ///< D* c0^2 dx/h^2, m/s^2
   Real repulsion_contact = 0;  ///< distance at which particles touch, /h
   Real repulsion_overlap = 2;  ///< largest pe: deeper in, the push stays
   Real repulsion_damping = 0;  ///< 1/s
   int repulsion_powers[2] = {6, 4};
-  Real* acceleration = nullptr;  ///< 4 per particle: x, y, z in m/s^2; the platelets' rate, 1/s
+  SurfaceNormals<Real> normals;  ///< of sets with tension
+  Real* acceleration = nullptr;  ///< 4 per particle: x, y, z in m/s^2; 0
 };
 
 template <class Real>

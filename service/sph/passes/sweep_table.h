@@ -1,11 +1,13 @@
-// The sweeps over the neighbour lists beside the fused force pass: what some effects need before or after it. They are compiled
+// The sweeps over the neighbour lists beside the fused force pass: what some effects need before or after it, or not in every
+// step. They are compiled
 // apart from the force passes, once for each kind of boundary, and an effect that is absent runs none of them.
 #pragma once
 
+#include "service/sph/passes/curvature_job.h"
 #include "service/sph/passes/pass_jobs.h"
 #include "service/sph/passes/pass_table.h"
+#include "service/sph/passes/platelet_job.h"
 #include "service/sph/passes/shear_rate_job.h"
-#include "service/sph/passes/tension_jobs.h"
 #include "service/sph/passes/viscous_product_job.h"
 
 namespace bleedsim::sph {
@@ -16,7 +18,7 @@ using SweepFunction = void (*)(const Job&);
 template <class Real>
 struct SweepTable {
   SweepFunction<ShearRateJob<Real>> shear_rate = nullptr;
-  SweepFunction<NormalJob<Real>> normals = nullptr;
+  SweepFunction<PlateletJob<Real>> platelets = nullptr;
   SweepFunction<CurvatureJob<Real>> curvature = nullptr;
   SweepFunction<ViscousProductJob<Real>> viscous_product = nullptr;  ///< viscosity differs between particles
   SweepFunction<ViscousProductJob<Real>> uniform_viscous_product = nullptr;

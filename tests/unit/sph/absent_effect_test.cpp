@@ -26,7 +26,8 @@ struct Parts {
   bool density = false;      ///< another instantiation of the density pass
   bool pair_forces = false;  ///< another instantiation of the fused pair loop
   bool shear_rate = false;   ///< a sweep that does not run without it
-  bool tension = false;      ///< two such sweeps
+  bool diffusion = false;    ///< another
+  bool curvature = false;    ///< and another
   Arrays arrays = {};
 };
 
@@ -38,10 +39,11 @@ const std::vector<Parts> kSound{
     {.effect = "platelets",
      .pair_forces = true,
      .shear_rate = true,
+     .diffusion = true,
      .arrays = {.particles = true, .passes = true, .effects = true}},
     {.effect = "core_radius", .density = true, .pair_forces = true, .arrays = {.particles = true, .passes = true, .lists = true}},
     {.effect = "repulsion", .pair_forces = true},
-    {.effect = "surface_tension", .tension = true, .arrays = {.passes = true, .effects = true}},
+    {.effect = "surface_tension", .pair_forces = true, .curvature = true, .arrays = {.passes = true, .effects = true}},
     {.effect = "adhesion"},
     {.effect = "applied_force", .arrays = {.effects = true}}};
 
@@ -132,10 +134,10 @@ TEST_P(AbsentEffect, IsNoPartOfTheCodeThatRuns) {
   EXPECT_EQ(less.pair_forces != more.pair_forces, parts.pair_forces);
   EXPECT_EQ(less.shear_rate, 0u);
   EXPECT_EQ(more.shear_rate != 0, parts.shear_rate);
-  for (const auto sweep : {&RunningCode::surface_normals, &RunningCode::curvature}) {
-    EXPECT_EQ(less.*sweep, 0u);
-    EXPECT_EQ(more.*sweep != 0, parts.tension);
-  }
+  EXPECT_EQ(less.platelets, 0u);
+  EXPECT_EQ(more.platelets != 0, parts.diffusion);
+  EXPECT_EQ(less.curvature, 0u);
+  EXPECT_EQ(more.curvature != 0, parts.curvature);
   EXPECT_EQ(less.viscous_product, 0u);
 }
 

@@ -111,7 +111,7 @@ TEST(EffectSets, InstantiationsStayWithinTheirBound) {
       const PassChoice choice{kernel, periodic};
       std::size_t expected = 2;  // density passes, without tissue and with
       for (const PairSet& set : allPairSets()) {
-        const bool plain = !set.platelets && !set.repulsion && !set.core_radius;
+        const bool plain = !set.tension && !set.repulsion && !set.core_radius;
         expected += kernel == KernelType::wendland_c2 || plain ? 1 : 0;
       }
       if (kernel == KernelType::wendland_c2) expected += 2;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "service/sph/effects/literal_forces.h"
+#include "service/sph/effects/platelets.h"
 #include "service/sph/seeding.h"
 #include "tests/support/particle_rig.h"
 #include "tests/support/scenes.h"
@@ -25,6 +26,11 @@ class PassRig : public test::ParticleRig<Real> {
     if (description.model == Model::literal) {
       literal_.emplace(description, this->lattice_, speedOfSound(description), viscosityVaries(description), target);
     }
+    if (description.effects.platelets && description.model == Model::sound) {
+      platelets_.emplace(*description.effects.platelets, test::sweepsOf<Real>(sweepChoice(description), target).platelets,
+                         laplacianPrefactor(description, this->lattice_), description.spacing, description.rest_density,
+                         TissueField<Real>{});
+    }
     run();
   }
 
@@ -39,7 +45,8 @@ class PassRig : public test::ParticleRig<Real> {
     PairPasses<Real>& passes = this->passes_;
     std::fill_n(passes.acceleration(), std::size_t{this->count_} * 4, Real(0));
     overflowed_ = passes.densityAndSweep(this->grid_, this->sorted_, nullptr, this->count_, this->shares_, *this->executor_,
-                                         passes.forceFunction(true, true), passes.forceJob(), force_part);
+                                         passes.forceFunction(true), forceJob(), force_part);
+    diffuse();
     EXPECT_GT(force_part, 0.0);
     EXPECT_LT(force_part, 1.0);
     read();
@@ -62,7 +69,9 @@ class PassRig : public test::ParticleRig<Real> {
  private:
   static PairLayout layoutOf(const WorldDescription& d) {
     if (d.model == Model::literal) return pairLayout(d);
-    return {.set = pairSet(d)};
+    PairLayout layout = pairLayout(d);
+    layout.tissue = false;
+    return layout;
   }
 
   void run() {
@@ -72,9 +81,21 @@ class PassRig : public test::ParticleRig<Real> {
       literal_->thicken(this->sorted_, passes, this->count_, this->shares_, *this->executor_);
       literal_->add(this->grid_, this->sorted_, passes, this->count_, this->shares_, *this->executor_);
     } else {
-      passes.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true, true);
+      passes.force(this->grid_, this->sorted_, this->count_, this->shares_, *this->executor_, true, forceJob());
+      diffuse();
     }
     read();
+  }
+
+  /// With room for the normals that sets with tension write; nobody reads them.
+  ForceJob<Real> forceJob() {
+    ForceJob<Real> job = this->passes_.forceJob();
+    normal_.resize(std::size_t{this->count_} * 4);
+    job.normals = {this->sorted_.driver.data(), Real(1), Real(1), this->passes_.record(0), normal_.data()};
+    return job;
+  }
+  void diffuse() {
+    if (platelets_) platelets_->diffuse(this->grid_, this->sorted_, this->passes_, this->count_, this->shares_, *this->executor_);
   }
 
   void read() {
@@ -89,6 +110,8 @@ class PassRig : public test::ParticleRig<Real> {
   }
 
   std::optional<LiteralForces<Real>> literal_;
+  std::optional<Clotting<Real>> platelets_;
+  std::vector<Real> normal_;
   std::uint64_t overflowed_ = 0;
   std::vector<double> density_;
   std::vector<Vec3> acceleration_;
@@ -101,7 +124,7 @@ inline std::string nameOf(PairSet set) {
   if (set.pressure != PressureTerm::none) name += set.pressure == PressureTerm::symmetric ? "SymmetricPressure" : "Pressure";
   if (set.viscosity != ViscosityTerm::none)
     name += set.viscosity == ViscosityTerm::uniform ? "UniformViscosity" : "HarmonicViscosity";
-  if (set.platelets) name += "Platelets";
+  if (set.tension) name += "Tension";
   if (set.repulsion) name += "Repulsion";
   if (set.core_radius) name += "CoreRadius";
   return name;
@@ -123,7 +146,7 @@ inline WorldDescription withPairSet(WorldDescription description, PairSet set) {
   description.effects.viscosity.reset();
   if (set.pressure != PressureTerm::none) description.effects.pressure.emplace();
   if (set.pressure == PressureTerm::symmetric) description.effects.pressure->form = PressureForm::symmetric;
-  if (set.platelets) description.effects.platelets.emplace();
+  if (set.tension) description.effects.surface_tension.emplace();
   if (set.repulsion) description.effects.repulsion.emplace();
   if (set.core_radius) description.effects.core_radius.emplace();
   if (set.viscosity != ViscosityTerm::none) description.effects.viscosity.emplace();

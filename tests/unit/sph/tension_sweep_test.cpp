@@ -1,4 +1,4 @@
-// The two sweeps of surface tension against the oracle in double precision, and what they give on simple shapes.
+// The two walks of surface tension against the oracle in double precision, and what they give on simple shapes.
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <numbers>

@@ -55,9 +55,9 @@ TEST(TensionWorld, LimitsTheStep) {
 // An absent effect takes no place in the records; its arrays are members of a component that is not there.
 TEST(TensionWorld, AbsentTakesNothing) {
   WorldDescription scene = drop(2.0);
-  EXPECT_EQ(recordGroups(pairLayout(scene).set, pairLayout(scene).tension), 4);
+  EXPECT_EQ(recordGroups(pairLayout(scene).set), 4);
   scene.effects.surface_tension.reset();
-  EXPECT_EQ(recordGroups(pairLayout(scene).set, pairLayout(scene).tension), 2);
+  EXPECT_EQ(recordGroups(pairLayout(scene).set), 2);
 }
 
 TEST(TensionWorld, RefusesWhatHasNoMeaning) {

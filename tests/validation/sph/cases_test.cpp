@@ -60,8 +60,10 @@ std::vector<Run> runs() {
   add("spinningBlob", "spinning_blob", 2.0, 20);
   add("inviscidBox", "inviscid_box", 2.5, 20);
 
-  // Slope measured 1.046..1.048 / 1.011..1.014 by target and precision (walls.md: 1.057 / 0.993), speed 0.0080 / 0.0040.
-  add("hydrostaticTwo", "hydrostatic", 2.0, 20, {{"pressure_slope", 0.07}, {"speed_over_sqrt_gh", 0.01}});
+  // Slope measured 1.046..1.048 / 1.011..1.014 by target and precision (walls.md: 1.057 / 0.993), speed at h = 2.5 dx 0.0040. How
+  // much of its settling a column at h = 2 dx has kept by then is chance: 0.0034..0.0192 over nine steps and speeds of sound
+  // within 6 % of these, the same before and after a change of the last bits.
+  add("hydrostaticTwo", "hydrostatic", 2.0, 20, {{"pressure_slope", 0.07}, {"speed_over_sqrt_gh", 0.02}});
   add("hydrostatic", "hydrostatic", 2.5, 20, {{"pressure_slope", 0.019}, {"speed_over_sqrt_gh", 0.0061}});
 
   // Measured at h = 2 / 2.5 dx, the same on every target and in double: 0.73 / 0.89, 0.50 / 0.61, 0.37 / 0.44, 0.34 / 0.38 % and

@@ -1,64 +1,18 @@
-// The two sweeps of surface tension in the curvature form: normals, then curvature. Equations, terms, source and deviation stand
-// in surface_tension.h.
-#if defined(BLEEDSIM_SPH_EFFECTS_TENSION_SWEEPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BLEEDSIM_SPH_EFFECTS_TENSION_SWEEPS_INL_H_
-#undef BLEEDSIM_SPH_EFFECTS_TENSION_SWEEPS_INL_H_
+// The second walk of surface tension in the curvature form: curvature and the force, from normals that are known. Equations,
+// terms, source and deviation stand in surface_tension.h.
+#if defined(BLEEDSIM_SPH_EFFECTS_CURVATURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BLEEDSIM_SPH_EFFECTS_CURVATURE_INL_H_
+#undef BLEEDSIM_SPH_EFFECTS_CURVATURE_INL_H_
 #else
-#define BLEEDSIM_SPH_EFFECTS_TENSION_SWEEPS_INL_H_
+#define BLEEDSIM_SPH_EFFECTS_CURVATURE_INL_H_
 #endif
 
-#include <cmath>
-
+#include "service/sph/passes/curvature_job.h"
 #include "service/sph/passes/kernels-inl.h"
 #include "service/sph/passes/pair_geometry-inl.h"
-#include "service/sph/passes/tension_jobs.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
-
-/// n h = V0 sum_j h grad W + the tissue's share, and the weight w.
-template <class L>
-class NormalBody {
- public:
-  using V = typename L::V;
-  using Real = typename L::Scalar;
-  using Job = NormalJob<Real>;
-  static constexpr int kGroups = 1;
-
-  NormalBody(const Job&, std::uint32_t, const Real* record) : own_{record} {}
-
-  HWY_INLINE void pair(const Pair<L>& p) {
-    x_ = L::mulAdd(p.gradient, p.dx, x_);
-    y_ = L::mulAdd(p.gradient, p.dy, y_);
-    z_ = L::mulAdd(p.gradient, p.dz, z_);
-  }
-
-  void finish(const Job& job, std::uint32_t i) const {
-    alignas(64) Real sums[4];
-    L::storeSums(x_, y_, z_, L::set(Real(0)), sums);
-    Real* normal = job.normal + std::size_t{i} * 4;
-    Real square = Real(0);
-    for (int a = 0; a < 3; ++a) {
-      normal[a] = job.scale * sums[a] + own_[kRecordNormalX + a];
-      square += normal[a] * normal[a];
-    }
-    const bool driven = job.driver[i] != 0;
-    normal[3] = driven ? Real(1) : Real(0);
-    const bool kept = !driven && square > job.cutoff * job.cutoff;
-    const Real length = std::sqrt(square);
-    const Real unit = kept ? Real(1) / length : Real(0);
-    const Real ramp = length / job.cutoff - Real(1);
-    Real* surface = job.surface + std::size_t{i} * static_cast<std::uint32_t>(4 * job.groups) + kRecordNormalX;
-    for (int a = 0; a < 3; ++a) surface[a] = normal[a] * unit;
-    surface[3] = !kept ? Real(0) : ramp < Real(1) ? ramp : Real(1);
-  }
-
- private:
-  const Real* own_;
-  V x_ = L::set(Real(0));
-  V y_ = L::set(Real(0));
-  V z_ = L::set(Real(0));
-};
 
 /// kappa h = -(norms) sum_j w_j (nhat_j - nhat_i) . h grad W / sum_j w_j W, and the damping of the surface.
 template <class L, bool kRadius>
@@ -80,8 +34,8 @@ class CurvatureBody {
         vy_{L::set(record[kRecordVy])},
         vz_{L::set(record[kRecordVz])} {
     if constexpr (kRadius) {
-      own_inverse2_ = L::set(record[kRecordInverseRadius2]);
-      own_factor_ = L::set(record[kRecordRadiusFactor] / record[kRecordInverseRadius2]);  // (h/h_i)^3
+      own_inverse_ = L::set(record[kRecordInverseRadius]);
+      own_factor_ = L::set(record[kRecordRadiusFactor]);
     }
   }
 
@@ -125,12 +79,11 @@ class CurvatureBody {
   HWY_INLINE static V along(const Pair<L>& p, V x, V y, V z) { return L::mulAdd(z, p.dz, L::mulAdd(y, p.dy, x * p.dx)); }
   HWY_INLINE V kernelOf(const Pair<L>& p) const {
     if constexpr (kRadius) {
-      const V inverse2 = p.field[kRecordInverseRadius2];
-      const V factor = p.field[kRecordRadiusFactor] / inverse2;
-      const V both = L::mulAdd(own_factor_, Kernel::weight(p.q2 * own_inverse2_), factor * Kernel::weight(p.q2 * inverse2));
+      const V theirs = p.field[kRecordRadiusFactor] * Kernel::weight(p.q * p.field[kRecordInverseRadius]);
+      const V both = L::mulAdd(own_factor_, Kernel::weight(p.q * own_inverse_), theirs);
       return L::set(Real(0.5)) * both;
     } else {
-      return Kernel::weight(p.q2);
+      return Kernel::weight(p.q);
     }
   }
 
@@ -138,7 +91,7 @@ class CurvatureBody {
   const Real* own_;
   V x_, y_, z_;
   V vx_, vy_, vz_;
-  V own_inverse2_ = L::set(Real(1));
+  V own_inverse_ = L::set(Real(1));
   V own_factor_ = L::set(Real(1));
   V divergence_ = L::set(Real(0));
   V weight_ = L::set(Real(0));
