@@ -39,8 +39,7 @@ class Repulsion {
     const V contact = L::set(job_.repulsion_contact);
     const V one = L::set(Real(1));
     const V deepest = L::set(job_.repulsion_overlap / job_.repulsion_contact);
-    // A particle is its own neighbour: at zero distance there is no direction and so no force.
-    const V inverse_distance = p.q / L::max(p.q2, L::set(Real(1e-12)));
+    const V inverse_distance = inverseDistance<L>(p.q);
     const V capped = L::min(inverse_distance, deepest);
     const V pe = L::max(contact * capped, one);
     const V push = L::set(job_.repulsion_scale) * gap_(pe) * (capped * capped);

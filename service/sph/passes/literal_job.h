@@ -7,9 +7,10 @@ namespace bleedsim::sph {
 
 template <class Real>
 struct LiteralJob : SweepJob<Real> {
-  Real pressure_constant =
-      0;                     ///< K (p_0 - k rho0), K = m x norm of (31)/h^4 and for (17) half of it, p_0 the background pressure
-  Real pressure_slope = 0;   ///< K k; K p/rho = slope + constant/rho
+  /// K p/rho = slope + constant/rho: K k and K (p_0 - k rho0). K = m x norm of (31)/h^4, for (17) half of it; p_0 the background
+  /// pressure.
+  Real pressure_slope = 0;
+  Real pressure_constant = 0;
   Real viscosity_scale = 0;  ///< K, or K mu where the records hold no viscosity; K = m x norm of (33)/h^5
   Real platelet_scale = 0;   ///< K k, m^3/(kg s)
   Real tension_scale = 0;    ///< eps m x norm of (31)/h^5

@@ -25,6 +25,14 @@ struct Pair {
   const std::uint32_t* list;                  ///< their record offsets
 };
 
+/// 1/q, and nothing in the same place: below h/1e6 it falls to 0, for a particle on another's spot (or the particle itself) gives
+/// no direction.
+template <class L>
+HWY_INLINE typename L::V inverseDistance(typename L::V q) {
+  using Real = typename L::Scalar;
+  return q / L::max(q * q, L::set(Real(1e-12)));
+}
+
 /// What the effects add to: the acceleration of particle i, m/s^2, and the rate of its platelets, 1/s.
 template <class L>
 struct PairSums {

@@ -11,7 +11,7 @@
 #define BLEEDSIM_SPH_PASSES_PAPER_KERNELS_INL_H_
 #endif
 
-#include "service/sph/passes/lanes-inl.h"
+#include "service/sph/passes/pair_geometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bleedsim::sph::HWY_NAMESPACE {
@@ -21,14 +21,6 @@ template <class L>
 HWY_INLINE typename L::V complementOf(typename L::V q) {
   using Real = typename L::Scalar;
   return L::max(L::set(Real(1)) - q, L::set(Real(0)));
-}
-
-/// 1/q, and nothing in the same place: below h/1e6 it falls to 0, for a particle on another's spot (or the particle itself) gives
-/// no direction.
-template <class L>
-HWY_INLINE typename L::V inverseDistance(typename L::V q) {
-  using Real = typename L::Scalar;
-  return q / L::max(q * q, L::set(Real(1e-12)));
 }
 
 template <class L>
