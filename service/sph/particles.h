@@ -1,6 +1,7 @@
 // The particle state, structure of arrays. Positions are kept in support radii, so that the pair passes need no scaling.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -55,14 +56,17 @@ struct Particles {
     copyBody(to, source, from);
   }
 
-  /// All but place and velocity.
-  void copyBody(std::size_t to, const Particles& source, std::size_t from) {
-    id[to] = source.id[from];
-    driver[to] = source.driver[from];
-    if (!inverse_viscosity.empty()) inverse_viscosity[to] = source.inverse_viscosity[from];
-    if (!own_viscosity.empty()) own_viscosity[to] = source.own_viscosity[from];
-    if (!platelet.empty()) platelet[to] = source.platelet[from];
-    if (!radius.empty()) radius[to] = source.radius[from];
+  /// All but place and velocity, of `length` particles; to other arrays or, one alone, to another place of these.
+  void copyBody(std::size_t to, const Particles& source, std::size_t from, std::size_t length = 1) {
+    std::copy_n(source.id.data() + from, length, id.data() + to);
+    std::copy_n(source.driver.data() + from, length, driver.data() + to);
+    const auto copy = [&](AlignedArray<Real>& mine, const AlignedArray<Real>& theirs) {
+      if (!mine.empty()) std::copy_n(theirs.data() + from, length, mine.data() + to);
+    };
+    copy(inverse_viscosity, source.inverse_viscosity);
+    copy(own_viscosity, source.own_viscosity);
+    copy(platelet, source.platelet);
+    copy(radius, source.radius);
   }
 
   std::size_t bytes() const {

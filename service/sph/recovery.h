@@ -26,7 +26,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "service/sph/integrate/kick_drift.h"
+#include "service/sph/integrate/closing_kick.h"
 #include "service/sph/world.h"
 
 namespace bleedsim::sph {

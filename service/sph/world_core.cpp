@@ -230,9 +230,16 @@ template <class Real>
 void WorldCore<Real>::move(double dt) {
   const Real half_kick = static_cast<Real>(opening_ * dt);
   executor_->run(shares_, [&](int share) {
-    drift_results_[static_cast<std::size_t>(share)] =
-        drift(particles_, passes_.formerAcceleration(), passes_.acceleration(), half_kick, static_cast<Real>(dt / h_), h_,
-              domain_, wounds_, ShareRange{count_, share, shares_}, grid_.cells());
+    Drift<Real> drift{particles_,
+                      passes_.formerAcceleration(),
+                      passes_.acceleration(),
+                      half_kick,
+                      static_cast<Real>(dt / h_),
+                      h_,
+                      domain_,
+                      wounds_,
+                      grid_.cells()};
+    drift_results_[static_cast<std::size_t>(share)] = drift.run(ShareRange{count_, share, shares_});
   });
   Bounds<Real> bounds;
   for (int share = 0; share < shares_; ++share) {
@@ -274,14 +281,11 @@ void WorldCore<Real>::findNeighbors(const Bounds<Real>& bounds, Real half_kick) 
         cells[i] = grid_.cellAt(moved[std::size_t{i} * 4], moved[std::size_t{i} * 4 + 1], moved[std::size_t{i} * 4 + 2]);
     }
   });
-  count_ = grid_.sort(count_, shares_, *executor_, [&](std::uint32_t from, std::uint32_t to) {
-    sorted_.copyBody(to, particles_, from);
-    const Real* position = moved + std::size_t{from} * 4;
-    sorted_.x[to] = position[0];
-    sorted_.y[to] = position[1];
-    sorted_.z[to] = position[2];
-    kick(sorted_, to, particles_, from, acceleration, half_kick, wounds_);
-    passes_.pack(to, sorted_);
+  count_ = grid_.sortRuns(count_, shares_, *executor_, [&](std::uint32_t from, std::uint32_t to, std::uint32_t length) {
+    sorted_.copyBody(to, particles_, from, length);
+    place(sorted_, to, moved + std::size_t{from} * 4, length);
+    kick(sorted_, to, particles_, from, length, acceleration, half_kick, wounds_);
+    passes_.pack(to, length, sorted_);
   });
   particles_.swap(sorted_);
   clock_.lap(Stage::neighbors);

@@ -17,6 +17,7 @@
 #include "service/sph/effects/shear_rate.h"
 #include "service/sph/effects/surface_tension.h"
 #include "service/sph/executor.h"
+#include "service/sph/integrate/closing_kick.h"
 #include "service/sph/integrate/kick_drift.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/neighbors/cell_grid.h"

@@ -10,7 +10,7 @@
 #include "service/sph/effects/literal_core_radius.h"
 #include "service/sph/effects/pair_set.h"
 #include "service/sph/effects/rheology.h"
-#include "service/sph/integrate/kick_drift.h"
+#include "service/sph/integrate/closing_kick.h"
 #include "service/sph/integrate/time_step.h"
 #include "service/sph/literal_model.h"
 #include "service/sph/passes/pair_passes.h"

@@ -115,7 +115,7 @@ class ParticleRig {
     for (std::uint32_t i = 0; i < count_; ++i) grid_.cells()[i] = grid_.cellAt(placed_.x[i], placed_.y[i], placed_.z[i]);
     grid_.sort(count_, shares_, *executor_, [&](std::uint32_t from, std::uint32_t to) {
       sorted_.copyOne(to, placed_, from);
-      passes_.pack(to, sorted_);
+      passes_.pack(to, 1, sorted_);
     });
   }
 };

@@ -34,7 +34,7 @@ struct EffectRow {
 };
 
 inline constexpr std::array<EffectRow, 9> kEffects{{
-    {{"gravity", "F of (9)", "the paper; service/sph/integrate/kick_drift.h", "none"}, effectSlot<&EffectSettings::gravity>()},
+    {{"gravity", "F of (9)", "the paper; service/sph/integrate/closing_kick.h", "none"}, effectSlot<&EffectSettings::gravity>()},
     {{"pressure", "(16)(17)(18)(19)(20)", "Monaghan 1992; Wendland 1995; service/sph/effects/pressure-inl.h",
       "p = c0^2 (rho - rho0) of (19), never negative, instead of p = k rho of (18); (16) by default, (17) on request; Wendland "
       "C2, "

@@ -9,6 +9,7 @@
 #include "service/sph/neighbors/cell_grid.h"
 #include "service/sph/neighbors/domain_box.h"
 #include "service/sph/particles.h"
+#include "service/sph/quad.h"
 #include "service/sph/wound/wound_set.h"
 
 namespace bleedsim::sph {
@@ -31,46 +32,119 @@ std::array<Real, 3> kickedVelocity(const Particles<Real>& p, const Real* acceler
 /// particle and the last unused, so that the state before the step outlives it. Particles of a throat go where their wound is
 /// now. Particles that leave the domain get CellGrid::kRemoved in `cells`, all others 0.
 template <class Real>
-DriftResult<Real> drift(const Particles<Real>& p, Real* moved, const Real* acceleration, Real half_dt, Real dt_per_h, double h,
-                        const DomainBox<Real>& domain, const WoundSet& wounds, ShareRange range, std::uint32_t* cells) {
-  DriftResult<Real> result;
-  for (std::uint32_t i = range.begin; i < range.end; ++i) {
-    cells[i] = 0;
-    Real* position = moved + std::size_t{i} * 4;
-    if (p.driver[i] != 0) {
-      const Vec3 driven = wounds.kinematics(p.driver[i]).position;
-      for (int k = 0; k < 3; ++k) position[k] = static_cast<Real>(driven[k] / h);
+class Drift {
+ public:
+  using Q = Quad<Real>;
+  using V = typename Q::Vector;
+
+  Drift(const Particles<Real>& p, Real* moved, const Real* acceleration, Real half_dt, Real dt_per_h, double h,
+        const DomainBox<Real>& domain, const WoundSet& wounds, std::uint32_t* cells)
+      : p_{p},
+        moved_{moved},
+        acceleration_{acceleration},
+        half_dt_{half_dt},
+        dt_per_h_{dt_per_h},
+        h_{h},
+        domain_{domain},
+        wounds_{wounds},
+        cells_{cells},
+        bounded_{!domain.periodic[0] && !domain.periodic[1] && !domain.periodic[2]} {}
+
+  DriftResult<Real> run(ShareRange range) {
+    for (std::uint32_t i = range.begin; i < range.end;) {
+      if (i + Q::kWidth <= range.end && driftFour(i)) {
+        i += Q::kWidth;
+        continue;
+      }
+      const std::uint32_t end = std::min(range.end, i + Q::kWidth);
+      for (; i < end; ++i) driftOne(i);
+    }
+    if (Q::least(lower_[0]) <= Q::largest(upper_[0])) {
+      result_.bounds.include(Q::least(lower_[0]), Q::least(lower_[1]), Q::least(lower_[2]));
+      result_.bounds.include(Q::largest(upper_[0]), Q::largest(upper_[1]), Q::largest(upper_[2]));
+    }
+    return result_;
+  }
+
+ private:
+  /// False, and nothing that counts has happened, where one of the four needs more than a drift.
+  bool driftFour(std::uint32_t i) {
+    if (!bounded_ || !fourZeros(p_.driver.data() + i)) return false;
+    const Real* a = acceleration_ + std::size_t{i} * 4;
+    V ax = Q::load(a), ay = Q::load(a + 4), az = Q::load(a + 8), unused = Q::load(a + 12);
+    Q::transpose(ax, ay, az, unused);
+    V x[3] = {place(p_.x, p_.vx, ax, i), place(p_.y, p_.vy, ay, i), place(p_.z, p_.vz, az, i)};
+    auto inside = x[0] >= Q::set(domain_.lower[0]);
+    for (std::size_t k = 0; k < 3; ++k) inside &= (x[k] >= Q::set(domain_.lower[k])) & (x[k] <= Q::set(domain_.upper[k]));
+    if (!Q::all(inside)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      lower_[k] = x[k] < lower_[k] ? x[k] : lower_[k];
+      upper_[k] = x[k] > upper_[k] ? x[k] : upper_[k];
+    }
+    Q::transpose(x[0], x[1], x[2], unused);
+    Real* to = moved_ + std::size_t{i} * 4;
+    Q::store(x[0], to);
+    Q::store(x[1], to + 4);
+    Q::store(x[2], to + 8);
+    Q::store(unused, to + 12);
+    std::fill_n(cells_ + i, Q::kWidth, 0u);
+    return true;
+  }
+
+  V place(const AlignedArray<Real>& x, const AlignedArray<Real>& v, const V& a, std::uint32_t i) const {
+    return Q::load(x.data() + i) + (Q::load(v.data() + i) + a * Q::set(half_dt_)) * Q::set(dt_per_h_);
+  }
+
+  void driftOne(std::uint32_t i) {
+    cells_[i] = 0;
+    Real* position = moved_ + std::size_t{i} * 4;
+    if (p_.driver[i] != 0) {
+      const Vec3 driven = wounds_.kinematics(p_.driver[i]).position;
+      for (int k = 0; k < 3; ++k) position[k] = static_cast<Real>(driven[k] / h_);
     } else {
-      const std::array<Real, 3> velocity = kickedVelocity(p, acceleration, i, half_dt);
-      position[0] = p.x[i];
-      position[1] = p.y[i];
-      position[2] = p.z[i];
+      const std::array<Real, 3> velocity = kickedVelocity(p_, acceleration_, i, half_dt_);
+      position[0] = p_.x[i];
+      position[1] = p_.y[i];
+      position[2] = p_.z[i];
       bool inside = true;
       for (std::size_t k = 0; k < 3; ++k) {
         Real& x = position[k];
-        x += velocity[k] * dt_per_h;
-        if (domain.periodic[k]) {
-          x = domain.wrapped(k, x);
+        x += velocity[k] * dt_per_h_;
+        if (domain_.periodic[k]) {
+          x = domain_.wrapped(k, x);
         } else {
-          inside = inside && x >= domain.lower[k] && x <= domain.upper[k];
+          inside = inside && x >= domain_.lower[k] && x <= domain_.upper[k];
         }
       }
       if (!inside) {
-        cells[i] = CellGrid<Real>::kRemoved;
-        ++result.left_domain;
-        continue;
+        cells_[i] = CellGrid<Real>::kRemoved;
+        ++result_.left_domain;
+        return;
       }
     }
-    result.bounds.include(position[0], position[1], position[2]);
+    result_.bounds.include(position[0], position[1], position[2]);
   }
-  return result;
-}
+
+  const Particles<Real>& p_;
+  Real* moved_;
+  const Real* acceleration_;
+  Real half_dt_;
+  Real dt_per_h_;
+  double h_;
+  const DomainBox<Real>& domain_;
+  const WoundSet& wounds_;
+  std::uint32_t* cells_;
+  bool bounded_;
+  DriftResult<Real> result_;
+  V lower_[3] = {Q::set(Real(1e9)), Q::set(Real(1e9)), Q::set(Real(1e9))};  // as Bounds
+  V upper_[3] = {Q::set(Real(-1e9)), Q::set(Real(-1e9)), Q::set(Real(-1e9))};
+};
 
 /// The opening half kick of particle i, if any, into place `to` of another order; a throat gives its particles their velocities,
 /// and frees those that it releases.
 template <class Real>
-void kick(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p, std::uint32_t i, const Real* acceleration,
-          Real half_dt, const WoundSet& wounds) {
+void kickOne(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p, std::uint32_t i, const Real* acceleration,
+             Real half_dt, const WoundSet& wounds) {
   if (p.driver[i] != 0) {
     const InletState state = wounds.kinematics(p.driver[i]);
     sorted.vx[to] = static_cast<Real>(state.velocity.x());
@@ -86,109 +160,47 @@ void kick(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p, s
   sorted.vz[to] = velocity[2];
 }
 
-/// Bound on accelerations, in c0^2/dx.
-constexpr double kAccelerationBound = 6.25;
-
-/// Bounds that keep a step sane whatever acts; each use is counted. v_cap = 2 c0; a_cap halves no dt below a quarter of the
-/// acoustic one: 0.25 sqrt(dx/a_cap) = 0.1 dx/c0.
+/// The places of `length` particles, 4 entries each in `moved`, into those from `to` on.
 template <class Real>
-struct MotionCaps {
-  Real speed = 0;         ///< m/s
-  Real acceleration = 0;  ///< m/s^2
-};
-
-/// What one share of the closing kick found.
-template <class Real>
-struct alignas(64) KickResult {
-  Real max_speed2 = 0;         ///< (m/s)^2
-  Real max_acceleration2 = 0;  ///< (m/s^2)^2
-  std::uint64_t speed_clamped = 0;
-  std::uint64_t acceleration_clamped = 0;
-  bool finite = true;
-  std::uint32_t free = 0;    ///< particles that no wound drives; counted by guardedKick only (recovery.h)
-  std::uint32_t capped = 0;  ///< of them, with an infinite force that guardedKick made finite
-  std::uint32_t frozen = 0;  ///< of them, stopped by guardedKick
-
-  void merge(const KickResult& other) {
-    max_speed2 = std::max(max_speed2, other.max_speed2);
-    max_acceleration2 = std::max(max_acceleration2, other.max_acceleration2);
-    speed_clamped += other.speed_clamped;
-    acceleration_clamped += other.acceleration_clamped;
-    finite = finite && other.finite;
-    free += other.free;
-    capped += other.capped;
-    frozen += other.frozen;
+void place(Particles<Real>& sorted, std::uint32_t to, const Real* moved, std::uint32_t length) {
+  using Q = Quad<Real>;
+  std::uint32_t k = 0;
+  for (; k + Q::kWidth <= length; k += Q::kWidth, moved += 4 * Q::kWidth) {
+    auto x = Q::load(moved), y = Q::load(moved + 4), z = Q::load(moved + 8), unused = Q::load(moved + 12);
+    Q::transpose(x, y, z, unused);
+    Q::store(x, sorted.x.data() + to + k);
+    Q::store(y, sorted.y.data() + to + k);
+    Q::store(z, sorted.z.data() + to + k);
   }
-};
-
-/// Scales a vector, whose squared length is `square` > bound^2, to the bound; its square may have overflowed.
-template <class Real>
-void scaleTo(Real bound, Real square, Real& x, Real& y, Real& z) {
-  if (std::isinf(square)) {
-    const Real most = std::max({std::abs(x), std::abs(y), std::abs(z)});
-    x /= most;
-    y /= most;
-    z /= most;
-    square = x * x + y * y + z * z;
+  for (; k < length; ++k, moved += 4) {
+    sorted.x[to + k] = moved[0];
+    sorted.y[to + k] = moved[1];
+    sorted.z[to + k] = moved[2];
   }
-  const Real scale = bound / std::sqrt(square);
-  x *= scale;
-  y *= scale;
-  z *= scale;
 }
 
-/// Adds gravity to the accelerations, clamps them, and gives the closing half kick.
+/// kickOne() of `length` particles from `from` on, into places from `to` on.
 template <class Real>
-KickResult<Real> closingKick(Particles<Real>& p, Real* acceleration, const std::array<Real, 3>& gravity, Real half_dt,
-                             const MotionCaps<Real>& caps, ShareRange range) {
-  KickResult<Real> result;
-  const Real speed_cap2 = caps.speed * caps.speed;
-  const Real acceleration_cap2 = caps.acceleration * caps.acceleration;
-  for (std::uint32_t i = range.begin; i < range.end; ++i) {
-    Real* a = acceleration + std::size_t{i} * 4;
-    if (p.driver[i] != 0) {
-      a[0] = a[1] = a[2] = Real(0);
-      result.max_speed2 = std::max(result.max_speed2, p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
+void kick(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p, std::uint32_t from, std::uint32_t length,
+          const Real* acceleration, Real half_dt, const WoundSet& wounds) {
+  using Q = Quad<Real>;
+  using V = typename Q::Vector;
+  const V half = Q::set(half_dt);
+  for (std::uint32_t k = 0; k < length;) {
+    const std::uint32_t i = from + k;
+    if (k + Q::kWidth > length || half_dt == Real(0) || !fourZeros(p.driver.data() + i)) {
+      const std::uint32_t end = std::min(length, k + Q::kWidth);
+      for (; k < end; ++k) kickOne(sorted, to + k, p, from + k, acceleration, half_dt, wounds);
       continue;
     }
-    for (std::size_t k = 0; k < 3; ++k) a[k] += gravity[k];
-    Real a2 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-    if (a2 > acceleration_cap2) {
-      scaleTo(caps.acceleration, a2, a[0], a[1], a[2]);
-      a2 = acceleration_cap2;
-      ++result.acceleration_clamped;
-    }
-    p.vx[i] += a[0] * half_dt;
-    p.vy[i] += a[1] * half_dt;
-    p.vz[i] += a[2] * half_dt;
-    Real v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
-    if (v2 > speed_cap2) {
-      scaleTo(caps.speed, v2, p.vx[i], p.vy[i], p.vz[i]);
-      v2 = speed_cap2;
-      ++result.speed_clamped;
-    }
-    // An acceleration that is no number, or infinite, has made v2 one that is not; a[3] is the platelets' rate.
-    result.finite = result.finite && std::isfinite(v2 + a[3]);
-    result.max_speed2 = std::max(result.max_speed2, v2);
-    result.max_acceleration2 = std::max(result.max_acceleration2, a2);
+    const Real* a = acceleration + std::size_t{i} * 4;
+    V ax = Q::load(a), ay = Q::load(a + 4), az = Q::load(a + 8), unused = Q::load(a + 12);
+    Q::transpose(ax, ay, az, unused);
+    Q::store(Q::load(p.vx.data() + i) + ax * half, sorted.vx.data() + to + k);
+    Q::store(Q::load(p.vy.data() + i) + ay * half, sorted.vy.data() + to + k);
+    Q::store(Q::load(p.vz.data() + i) + az * half, sorted.vz.data() + to + k);
+    k += Q::kWidth;
   }
-  return result;
-}
-
-/// Clamps the speeds of free particles that something after the kick has raised.
-template <class Real>
-KickResult<Real> boundSpeeds(Particles<Real>& p, Real cap, ShareRange range) {
-  KickResult<Real> result;
-  for (std::uint32_t i = range.begin; i < range.end; ++i) {
-    Real v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
-    if (v2 > cap * cap && p.driver[i] == 0) {
-      scaleTo(cap, v2, p.vx[i], p.vy[i], p.vz[i]);
-      v2 = cap * cap;
-      ++result.speed_clamped;
-    }
-    result.max_speed2 = std::max(result.max_speed2, v2);
-  }
-  return result;
 }
 
 }  // namespace bleedsim::sph

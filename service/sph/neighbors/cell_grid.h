@@ -111,10 +111,11 @@ class CellGrid {
     return static_cast<int>(std::min(c, last_[axis])) + 1;
   }
 
-  /// Counts cells() of n particles, then calls move(from, to) for every particle that stays: `to` is its place in cell order,
-  /// equal cells in the old order. Returns how many stay. The same for any number of shares.
+  /// Counts cells() of n particles, then calls move(from, to, length) for runs of particles that stay and keep together: `to` is
+  /// the place of the first in cell order, equal cells in the old order. Returns how many stay. The order is the same for any
+  /// number of shares, the runs are not.
   template <class Move>
-  std::uint32_t sort(std::uint32_t n, int shares, Executor& executor, Move&& move) {
+  std::uint32_t sortRuns(std::uint32_t n, int shares, Executor& executor, Move&& move) {
     const std::size_t cells = static_cast<std::size_t>(view_.size[0]) * static_cast<std::size_t>(view_.size[1]) *
                               static_cast<std::size_t>(view_.size[2]);
     executor.run(shares, [&](int share) {
@@ -139,11 +140,32 @@ class CellGrid {
     executor.run(shares, [&](int share) {
       std::uint32_t* next = histograms_[static_cast<std::size_t>(share)].data();
       const ShareRange range{n, share, shares};
+      std::uint32_t from = range.begin;
+      std::uint32_t to = 0;
+      std::uint32_t length = 0;
       for (std::uint32_t i = range.begin; i < range.end; ++i) {
-        if (cell_of_[i] != kRemoved) move(i, next[cell_of_[i]]++);
+        const bool stays = cell_of_[i] != kRemoved;
+        const std::uint32_t place = stays ? next[cell_of_[i]]++ : 0;
+        if (stays && length != 0 && length < kLongestRun && place == to + length) {
+          ++length;
+          continue;
+        }
+        if (length != 0) move(from, to, length);
+        from = i;
+        to = place;
+        length = stays ? 1 : 0;
       }
+      if (length != 0) move(from, to, length);
     });
     return sum;
+  }
+
+  /// The same, with move(from, to) for every particle.
+  template <class Move>
+  std::uint32_t sort(std::uint32_t n, int shares, Executor& executor, Move&& move) {
+    return sortRuns(n, shares, executor, [&move](std::uint32_t from, std::uint32_t to, std::uint32_t length) {
+      for (std::uint32_t k = 0; k < length; ++k) move(from + k, to + k);
+    });
   }
 
   /// First row of a share: rows are split where the particles are, so that shares hold about equally many.
@@ -164,6 +186,8 @@ class CellGrid {
   }
 
  private:
+  static constexpr std::uint32_t kLongestRun = 64;  // what one call moves stays in the first-level cache
+
   void setSize(std::size_t axis, int size) {
     view_.size[axis] = size;
     last_[axis] = static_cast<Real>(size - 3);

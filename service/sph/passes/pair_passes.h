@@ -13,6 +13,7 @@
 #include "service/sph/neighbors/cell_grid.h"
 #include "service/sph/particles.h"
 #include "service/sph/passes/pass_table.h"
+#include "service/sph/quad.h"
 #include "service/sph/running_code.h"
 #include "service/sph/stage_clock.h"
 
@@ -77,23 +78,16 @@ class PairPasses {
     overflowed_.resize(static_cast<std::size_t>(shares));
   }
 
-  /// Packs what the set of effects reads of particle i.
-  void pack(std::size_t i, const Particles<Real>& p) {
-    Real* record = record_.data() + i * static_cast<std::size_t>(4 * groups_);
-    record[kRecordX] = p.x[i];
-    record[kRecordY] = p.y[i];
-    record[kRecordZ] = p.z[i];
-    if (groups_ > 1) {
-      record[kRecordVx] = p.vx[i];
-      record[kRecordVy] = p.vy[i];
-      record[kRecordVz] = p.vz[i];
-    }
-    if (groups_ > 2) {
-      packRadius(record, p.radius.empty() ? Real(1) : p.radius[i]);
+  /// Packs what the set of effects reads of the `length` particles from `begin` on.
+  void pack(std::size_t begin, std::size_t length, const Particles<Real>& p) {
+    packVectors(begin, length, kRecordX, p.x.data(), p.y.data(), p.z.data());
+    if (groups_ > 1) packVectors(begin, length, kRecordVx, p.vx.data(), p.vy.data(), p.vz.data());
+    for (std::size_t i = begin; groups_ > 2 && i < begin + length; ++i) {
+      packRadius(record(i), p.radius.empty() ? Real(1) : p.radius[i]);
       setInverseViscosity(i, p.inverse_viscosity.empty() ? Real(1) : p.inverse_viscosity[i]);
-      record[platelet_field_] = p.platelet.empty() ? Real(0) : p.platelet[i];
+      record(i)[platelet_field_] = p.platelet.empty() ? Real(0) : p.platelet[i];
+      if (groups_ > 3) std::fill_n(record(i) + kRecordNormalX, 4, Real(0));
     }
-    if (groups_ > 3) std::fill_n(record + kRecordNormalX, 4, Real(0));
   }
 
   /// Densities, pressures and neighbour lists of the `count` sorted and packed particles; returns how many took the slow path.
@@ -336,6 +330,28 @@ class PairPasses {
   static ForceFunction<Real> forceOf(const PassTable<Real>& table, PairSet set, bool viscous) {
     if (!viscous) set.viscosity = ViscosityTerm::none;
     return table.force[set.index()];
+  }
+
+  /// A group of the record that begins with a vector; its fourth field is 0 until a pass writes it.
+  void packVectors(std::size_t begin, std::size_t length, RecordField field, const Real* x, const Real* y, const Real* z) {
+    using Q = Quad<Real>;
+    const auto stride = static_cast<std::size_t>(4 * groups_);
+    Real* to = record(begin) + field;
+    std::size_t i = begin;
+    for (; i + Q::kWidth <= begin + length; i += Q::kWidth, to += Q::kWidth * stride) {
+      auto a = Q::load(x + i), b = Q::load(y + i), c = Q::load(z + i), d = Q::set(Real(0));
+      Q::transpose(a, b, c, d);
+      Q::store(a, to);
+      Q::store(b, to + stride);
+      Q::store(c, to + 2 * stride);
+      Q::store(d, to + 3 * stride);
+    }
+    for (; i < begin + length; ++i, to += stride) {
+      to[0] = x[i];
+      to[1] = y[i];
+      to[2] = z[i];
+      to[3] = Real(0);
+    }
   }
 
   void packRadius(Real* record, Real radius) const {

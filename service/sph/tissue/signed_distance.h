@@ -135,7 +135,11 @@ class BowlSurface {
   /// Whether the box of these half edges about a point comes nearer than `reach` to the plane and to the sphere; false for what
   /// is no number.
   bool nears(const std::array<Real, 3>& center, const std::array<Real, 3>& half, Real reach) const {
-    if (!(center[2] - half[2] - rim_ < reach)) return false;
+    return center[2] - half[2] - rim_ < reach && nearsSphere(center, half, reach);
+  }
+
+  /// The same of the sphere alone.
+  bool nearsSphere(const std::array<Real, 3>& center, const std::array<Real, 3>& half, Real reach) const {
     const Real dx = std::abs(center_[0] - center[0]) + half[0];
     const Real dy = std::abs(center_[1] - center[1]) + half[1];
     const Real dz = std::abs(center_[2] - center[2]) + half[2];
@@ -143,6 +147,9 @@ class BowlSurface {
     const Real square = dx * dx + dy * dy + dz * dz;
     return inside < Real(0) ? square >= Real(0) : square > inside * inside;
   }
+
+  /// Whether points of this height, and all below, are so deep under the rim that within `reach` only the sphere is felt.
+  bool isHollow(Real z, Real reach) const { return z - rim_ <= -reach; }
 
   Parts parts(Real x, Real y, Real z) const {
     const Real dx = center_[0] - x;

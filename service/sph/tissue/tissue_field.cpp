@@ -92,11 +92,6 @@ Result<TissueField<Real>> TissueField<Real>::create(const std::vector<TissueDesc
 }
 
 template <class Real>
-Real TissueField<Real>::frictionOf(const Share<Real>& share, Real distance) const {
-  return share.friction + share.friction_depth / std::max(distance, static_cast<Real>(0.5) * spring_reach_);
-}
-
-template <class Real>
 Real TissueField<Real>::scaledFriction(Real share, Real distance, const Own& own) const {
   const Share<Real> plane = plane_table_->at(distance, own);
   if (!(plane.share > 0)) return 0;
@@ -157,7 +152,7 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, const 
   const std::array<Real, 3>& n = part.sphere_normal;
   WallTerm<Real> term{};
   term.grip = bowl.grip;
-  if (part.plane <= -reach_) {  // deep under the rim, where most touch: the hollow's table knows all, and it is the nearest
+  if (bowl.surface.isHollow(z, reach_)) {  // where most touch: the hollow's table knows all, and it is the nearest
     const Share<Real> hollow = bowl.table.at(part.sphere, own);
     term.distance = part.sphere;
     term.normal = n;
@@ -197,25 +192,32 @@ void TissueField<Real>::addBowl(const Bowl& bowl, Real x, Real y, Real z, const 
 }
 
 template <class Real>
-bool TissueField<Real>::mayTouch(const std::array<Real, 3>& lower, const std::array<Real, 3>& upper) const {
+typename TissueField<Real>::Nearby TissueField<Real>::nearby(const std::array<Real, 3>& lower,
+                                                             const std::array<Real, 3>& upper) const {
   std::array<Real, 3> center{};
   std::array<Real, 3> half{};
   for (std::size_t a = 0; a < 3; ++a) {
     center[a] = Real(0.5) * (lower[a] + upper[a]);
     half[a] = upper[a] - center[a];
-    if (!(half[a] >= Real(0))) return true;
+    if (!(half[a] >= Real(0))) return {Nearness::any, 0};
   }
   const Real reach = Real(1.001) * reach_;  // more than rounding, so that no touching point is missed
-  for (const Plane& plane : planes_) {
-    if (plane.surface.leastAbout(center, half) < reach) return true;
-  }
   for (const Obstacle& obstacle : obstacles_) {
-    if (obstacle.surface.leastAbout(center, half) < reach) return true;
+    if (obstacle.surface.leastAbout(center, half) < reach) return {Nearness::any, 0};
   }
-  for (const Bowl& bowl : bowls_) {
-    if (bowl.surface.nears(center, half, reach)) return true;
+  Nearby near;
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    if (!(planes_[k].surface.leastAbout(center, half) < reach)) continue;
+    if (near.nearness != Nearness::none) return {Nearness::any, 0};
+    near = {Nearness::plane, k};
   }
-  return false;
+  for (std::size_t k = 0; k < bowls_.size(); ++k) {
+    const BowlSurface<Real>& surface = bowls_[k].surface;
+    if (!surface.nears(center, half, reach)) continue;
+    if (near.nearness != Nearness::none || !surface.isHollow(upper[2], reach_)) return {Nearness::any, 0};
+    near = {Nearness::hollow, k};
+  }
+  return near;
 }
 
 template <class Real>

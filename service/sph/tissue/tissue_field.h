@@ -48,9 +48,25 @@ class TissueField {
   /// inside tissue are. `radius`: the particle's own support radius over h.
   bool sample(Real x, Real y, Real z, WallSample<Real>& out, Real radius = Real(1)) const;
 
-  /// Whether sample() may be true in the box between two corners; false only where it is false all over the box. For one corner
-  /// that is no number: true.
-  bool mayTouch(const std::array<Real, 3>& lower, const std::array<Real, 3>& upper) const;
+  /// Which walls sample() may find in the box between two corners.
+  enum class Nearness {
+    none,    ///< sample() is false all over the box
+    plane,   ///< one plane at most
+    hollow,  ///< at most one bowl, deep under its rim
+    any      ///< also where a corner is no number
+  };
+  struct Nearby {
+    Nearness nearness = Nearness::none;
+    std::size_t index = 0;  ///< of the one wall
+  };
+  Nearby nearby(const std::array<Real, 3>& lower, const std::array<Real, 3>& upper) const;
+
+  /// What sample() returns in the box of `near`, which has one wall alone: without a branch.
+  template <Nearness kNearness>
+  bool touchesLone(const Nearby& near, Real x, Real y, Real z) const;
+  /// The numbers that sample() gives there, where touchesLone() is true.
+  template <Nearness kNearness>
+  void sampleLone(const Nearby& near, Real x, Real y, Real z, WallSample<Real>& out, Real radius = Real(1)) const;
 
   /// L of a plane at phi = d, without edges and curvature; there must be tissue.
   Real planeShareAt(Real d) const { return plane_table_->at(d).share; }
@@ -82,6 +98,8 @@ class TissueField {
   };
 
   using Own = RadiusPlace<Real>;
+  void takeLone(const Share<Real>& share, Real distance, const std::array<Real, 3>& normal, Real grip,
+                WallSample<Real>& out) const;
   void addPlane(const Plane& plane, Real distance, const Own& own, WallTerms<Real>& terms) const;
   void addObstacle(const Obstacle& obstacle, Real x, Real y, Real z, const Own& own, WallTerms<Real>& terms) const;
   void addBowl(const Bowl& bowl, Real x, Real y, Real z, const Own& own, WallTerms<Real>& terms) const;
@@ -100,6 +118,53 @@ class TissueField {
   std::vector<Obstacle> obstacles_;
   std::vector<Bowl> bowls_;
 };
+
+template <class Real>
+Real TissueField<Real>::frictionOf(const Share<Real>& share, Real distance) const {
+  return share.friction + share.friction_depth / std::max(distance, static_cast<Real>(0.5) * spring_reach_);
+}
+
+template <class Real>
+template <typename TissueField<Real>::Nearness kNearness>
+bool TissueField<Real>::touchesLone(const Nearby& near, Real x, Real y, Real z) const {
+  if constexpr (kNearness == Nearness::plane) {
+    return planes_[near.index].surface.value(x, y, z) < reach_;
+  } else {
+    static_assert(kNearness == Nearness::hollow);
+    return bowls_[near.index].surface.nearsSphere({x, y, z}, {}, reach_);
+  }
+}
+
+template <class Real>
+template <typename TissueField<Real>::Nearness kNearness>
+void TissueField<Real>::sampleLone(const Nearby& near, Real x, Real y, Real z, WallSample<Real>& out, Real radius) const {
+  const Own own = radii_.at(radius);
+  if constexpr (kNearness == Nearness::plane) {
+    const Plane& plane = planes_[near.index];
+    const Real distance = plane.surface.value(x, y, z);
+    takeLone(plane_table_->at(distance, own), distance, plane.surface.normal(), plane.grip, out);
+  } else {
+    static_assert(kNearness == Nearness::hollow);
+    const Bowl& bowl = bowls_[near.index];
+    const auto part = bowl.surface.parts(x, y, z);
+    takeLone(bowl.table.at(part.sphere, own), part.sphere, part.sphere_normal, bowl.grip, out);
+  }
+}
+
+template <class Real>
+void TissueField<Real>::takeLone(const Share<Real>& share, Real distance, const std::array<Real, 3>& normal, Real grip,
+                                 WallSample<Real>& out) const {
+  const Real spring = std::max(spring_reach_ - distance, Real{0}) * spring_scale_;
+  out.distance = distance;
+  out.normal = normal;
+  out.share = share.share;
+  for (std::size_t a = 0; a < 3; ++a) {
+    out.gradient[a] = share.slope * normal[a];
+    out.spring[a] = spring * normal[a];
+  }
+  out.friction = std::min(frictionOf(share, distance) * grip, Real{0});
+  out.grip = grip;
+}
 
 extern template class TissueField<float>;
 extern template class TissueField<double>;

@@ -133,25 +133,70 @@ class WallEffects {
       lower[a] *= constants_.h;
       upper[a] *= constants_.h;
     }
-    if (!field_.mayTouch(lower, upper)) return 0;
+    using Nearness = typename TissueField<Real>::Nearness;
+    const auto near = field_.nearby(lower, upper);
+    if (near.nearness == Nearness::none) return 0;
     const bool near_wound = wounds.mayOpen(asVec3(lower), asVec3(upper));
+    const WoundSet* const open = near_wound ? &wounds : nullptr;
+    switch (near.nearness) {
+      case Nearness::plane:
+        return sampleLone<Nearness::plane>(p, open, near, begin, end, list);
+      case Nearness::hollow:
+        return sampleLone<Nearness::hollow>(p, open, near, begin, end, list);
+      default:
+        return sampleAny(p, open, begin, end, list);
+    }
+  }
+
+  std::uint32_t sampleAny(const Particles<Real>& p, const WoundSet* open, std::uint32_t begin, std::uint32_t end,
+                          Touching* list) {
     std::uint32_t length = 0;
     for (std::uint32_t i = begin; i < end; ++i) {
       if (p.driver[i] != 0) continue;
-      const std::array<Real, 3> x{p.x[i] * constants_.h, p.y[i] * constants_.h, p.z[i] * constants_.h};
+      const std::array<Real, 3> x = placeOf(p, i);
       Touching& entry = list[length];
-      if (!field_.sample(x[0], x[1], x[2], entry.wall, p.radius.empty() ? Real(1) : p.radius[i])) continue;
-      entry.closed = Real(1);
-      if (near_wound) {
-        entry.closed -= static_cast<Real>(wounds.openFraction(asVec3(x)));
-        closeBy(entry.closed, entry.wall);
-      }
+      if (!field_.sample(x[0], x[1], x[2], entry.wall, radiusOf(p, i))) continue;
       entry.particle = i;
-      share_[i] = entry.wall.share;
+      close(open, x, entry);
       ++length;
     }
     return length;
   }
+
+  /// Two loops: who touches is a coin's toss, at which a processor guesses wrong, and what follows would wait for it.
+  template <typename TissueField<Real>::Nearness kNearness>
+  std::uint32_t sampleLone(const Particles<Real>& p, const WoundSet* open, const typename TissueField<Real>::Nearby& near,
+                           std::uint32_t begin, std::uint32_t end, Touching* list) {
+    std::uint32_t length = 0;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const std::array<Real, 3> x = placeOf(p, i);
+      const bool touches = field_.template touchesLone<kNearness>(near, x[0], x[1], x[2]);
+      list[length].particle = i;
+      length += static_cast<std::uint32_t>(touches) & static_cast<std::uint32_t>(p.driver[i] == 0);
+    }
+    for (std::uint32_t k = 0; k < length; ++k) {
+      Touching& entry = list[k];
+      const std::array<Real, 3> x = placeOf(p, entry.particle);
+      field_.template sampleLone<kNearness>(near, x[0], x[1], x[2], entry.wall, radiusOf(p, entry.particle));
+      close(open, x, entry);
+    }
+    return length;
+  }
+
+  /// What the wounds that may be `open` there, if any, leave of a wall; with that the sample of the entry's particle is complete.
+  void close(const WoundSet* open, const std::array<Real, 3>& x, Touching& entry) {
+    entry.closed = Real(1);
+    if (open != nullptr) {
+      entry.closed -= static_cast<Real>(open->openFraction(asVec3(x)));
+      closeBy(entry.closed, entry.wall);
+    }
+    share_[entry.particle] = entry.wall.share;
+  }
+
+  std::array<Real, 3> placeOf(const Particles<Real>& p, std::uint32_t i) const {
+    return {p.x[i] * constants_.h, p.y[i] * constants_.h, p.z[i] * constants_.h};
+  }
+  static Real radiusOf(const Particles<Real>& p, std::uint32_t i) { return p.radius.empty() ? Real(1) : p.radius[i]; }
 
   static Vec3 asVec3(const std::array<Real, 3>& v) {
     return Eigen::Map<const Eigen::Matrix<Real, 3, 1>>{v.data()}.template cast<double>();

@@ -47,7 +47,7 @@ TEST(ListEffects, EachRowHasStateEquationSourceAndDeviation) {
   EXPECT_EQ(rows.size(), sph::effectCatalog().size());
   const auto row = [&rows](const std::string& name) { return rows.contains(name) ? rows.at(name) : std::string{"no row"}; };
   const auto has = [](auto... parts) { return AllOf(StartsWith("available  "), HasSubstr("source: "), HasSubstr(parts)...); };
-  EXPECT_THAT(row("gravity"), has("F of (9)", "kick_drift.h", "deviation: none"));
+  EXPECT_THAT(row("gravity"), has("F of (9)", "closing_kick.h", "deviation: none"));
   EXPECT_THAT(row("pressure"),
               has("(18)", "Monaghan 1992", "p = k rho of (18)", "never negative", "mass of a particle is calibrated"));
   EXPECT_THAT(row("viscosity"), has("(25)", "Brookshaw", "Laplacian of (33)", "implicit"));

@@ -56,8 +56,11 @@ TEST(TissueField, planeGivesItsTable) {
   EXPECT_TRUE(field.sample(0, 0, -10 * kReach, wall)) << "inside the tissue";
 }
 
-// Whole boxes are passed over by mayTouch(): no point of such a box may touch. And it is of use: boxes as small as a cell that
-// lie deep in the blood, or beyond a bowl's rim, are passed over.
+constexpr auto kNowhere = TissueField<float>::Nearness::none;
+constexpr auto kAnything = TissueField<float>::Nearness::any;
+
+// Whole boxes are passed over where nearby() has no wall: no point of such a box may touch. And it is of use: boxes as small as a
+// cell that lie deep in the blood, or beyond a bowl's rim, are passed over.
 TEST(TissueField, boxesThatAreOutOfReachHoldNoTouchingPoint) {
   PointStream stream;
   for (const TissueShape& shape : {TissueShape{wallAt(70.0)}, TissueShape{kBowl}, TissueShape{kBlock}}) {
@@ -68,7 +71,7 @@ TEST(TissueField, boxesThatAreOutOfReachHoldNoTouchingPoint) {
       const Vec3 upper = lower + stream.nextPoint(0.0, 2 * kReach);
       const std::array<float, 3> from{float(lower.x()), float(lower.y()), float(lower.z())};
       const std::array<float, 3> to{float(upper.x()), float(upper.y()), float(upper.z())};
-      if (field.mayTouch(from, to)) continue;
+      if (field.nearby(from, to).nearness != kNowhere) continue;
       ++out_of_reach;
       WallSample<float> wall;
       for (int corner = 0; corner < 8; ++corner) {
@@ -85,10 +88,75 @@ TEST(TissueField, boxesThatAreOutOfReachHoldNoTouchingPoint) {
   }
   const auto field = fieldOf<float>({tissueOf(kFloor)}, kRatio);
   const auto reach = static_cast<float>(kReach);
-  EXPECT_TRUE(field.mayTouch({0, 0, 0.9f * reach}, {1, 1, 1}));
-  EXPECT_FALSE(field.mayTouch({0, 0, 1.01f * reach}, {1, 1, 1}));
+  EXPECT_NE(field.nearby({0, 0, 0.9f * reach}, {1, 1, 1}).nearness, kNowhere);
+  EXPECT_EQ(field.nearby({0, 0, 1.01f * reach}, {1, 1, 1}).nearness, kNowhere);
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_TRUE(field.mayTouch({nan, 0, 1}, {nan, 1, 2})) << "its particles are asked one by one";
+  EXPECT_EQ(field.nearby({nan, 0, 1}, {nan, 1, 2}).nearness, kAnything) << "its particles are asked one by one";
+}
+
+struct LoneSample {
+  bool touches = false;
+  WallSample<float> wall;
+};
+
+template <TissueField<float>::Nearness kNearness>
+LoneSample sampleLone(const TissueField<float>& field, const TissueField<float>::Nearby& near, const std::array<float, 3>& x,
+                      float radius) {
+  LoneSample result{field.touchesLone<kNearness>(near, x[0], x[1], x[2]), {}};
+  if (result.touches) field.sampleLone<kNearness>(near, x[0], x[1], x[2], result.wall, radius);
+  return result;
+}
+
+void expectSame(const WallSample<float>& lone, const WallSample<float>& full) {
+  EXPECT_EQ(lone.distance, full.distance);
+  EXPECT_EQ(lone.normal, full.normal);
+  EXPECT_EQ(lone.share, full.share);
+  EXPECT_EQ(lone.gradient, full.gradient);
+  EXPECT_EQ(lone.friction, full.friction);
+  EXPECT_EQ(lone.spring, full.spring);
+  EXPECT_EQ(lone.grip, full.grip);
+}
+
+// Where one wall stands alone it is asked without the others, and must answer what all of them do, at every radius. Box: a bowl
+// in a room with a ramp, so that both kinds of lone walls and their neighbours occur.
+TEST(TissueField, aLoneWallAnswersAsAllOfThemDo) {
+  ShareSettings settings = settingsFor(kRatio);
+  settings.radii = {0.9, 1.3};
+  const TissueShape ramp = PlaneShape{.point = {8 * kSpacing, 0, 0}, .normal = {-1, 0, 0.5}};
+  const BowlShape bowl{.sphere_radius = 12 * kSpacing, .depth = 9 * kSpacing};
+  const auto created = TissueField<float>::create({tissueOf(ramp, 0.25), tissueOf(bowl, 0.5)}, settings);
+  ASSERT_TRUE(created.ok()) << created.status().message();
+  const TissueField<float>& field = *created;
+  using Nearness = TissueField<float>::Nearness;
+  std::array<int, 4> boxes{};
+  std::array<int, 4> touching{};
+  PointStream stream;
+  for (int k = 0; k < 4000; ++k) {
+    const Vec3 lower = stream.nextPoint(-12 * kSpacing, 12 * kSpacing);
+    const Vec3 upper = lower + stream.nextPoint(0.0, kReach);
+    const std::array<float, 3> from{float(lower.x()), float(lower.y()), float(lower.z())};
+    const std::array<float, 3> to{float(upper.x()), float(upper.y()), float(upper.z())};
+    const auto near = field.nearby(from, to);
+    const auto kind = static_cast<std::size_t>(near.nearness);
+    ++boxes[kind];
+    if (near.nearness != Nearness::plane && near.nearness != Nearness::hollow) continue;
+    for (int inner = 0; inner < 8; ++inner) {
+      std::array<float, 3> x{};
+      for (std::size_t a = 0; a < 3; ++a) x[a] = std::clamp(float(stream.next(from[a], to[a])), from[a], to[a]);
+      const float radius = float(stream.next(0.9, 1.3));
+      WallSample<float> full;
+      const bool touches = field.sample(x[0], x[1], x[2], full, radius);
+      const LoneSample lone = near.nearness == Nearness::plane ? sampleLone<Nearness::plane>(field, near, x, radius)
+                                                               : sampleLone<Nearness::hollow>(field, near, x, radius);
+      ASSERT_EQ(lone.touches, touches);
+      if (!touches) continue;
+      ++touching[kind];
+      expectSame(lone.wall, full);
+    }
+  }
+  for (const int count : boxes) EXPECT_GT(count, 50);
+  EXPECT_GT(touching[static_cast<std::size_t>(Nearness::plane)], 500);
+  EXPECT_GT(touching[static_cast<std::size_t>(Nearness::hollow)], 500);
 }
 
 // grad L is the derivative of L, whatever meets: perpendicular faces, wedges, a bowl's hollow and rim, a block's edges.
