@@ -47,6 +47,7 @@ class RadiusScale {
 
   /// Of a radius over h; outside the bounds, that of the bound.
   RadiusPlace<Real> at(Real radius) const {
+    if (!(nodes_.front() < nodes_.back())) return {};
     std::size_t k = 0;
     while (k + 2 < kRadiusNodes && radius >= nodes_[k + 1]) ++k;
     const Real width = nodes_[k + 1] - nodes_[k];

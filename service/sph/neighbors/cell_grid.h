@@ -9,11 +9,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "service/sph/aligned_array.h"
 #include "service/sph/executor.h"
 #include "service/sph/neighbors/grid_view.h"
+#include "service/sph/quad.h"
 #include "service/sph/share_range.h"
 
 namespace bleedsim::sph {
@@ -55,6 +57,8 @@ class CellGrid {
         const int cells = std::max(3, static_cast<int>(length / largest_cell));
         corner_[a] = static_cast<Real>(lower[a]);
         scale_[a] = static_cast<Real>(cells / length);
+        width_[a] = static_cast<Real>(length / cells);
+        slack_[a] = roundingOf(Real(0), cells, width_[a]) + roundingOf(corner_[a], 0, Real(1));
         view_.period[a] = static_cast<Real>(length);
         setSize(a, cells + 2);
         most *= static_cast<std::size_t>(cells) + 2;
@@ -82,11 +86,21 @@ class CellGrid {
   }
   std::uint32_t* cells() { return cell_of_.data(); }
 
+  /// Narrows bounds, in support radii, to where the particles of a cell stand along an axis, given its 1-based coordinate there.
+  void narrow(std::size_t axis, int coordinate, Bounds<Real>& bounds) const {
+    const Real from = corner_[axis] + (origin_[axis] + static_cast<Real>(coordinate - 1)) * width_[axis];
+    const bool outer = !view_.periodic[axis];  // the outermost cells hold all that is beyond them
+    bounds.lower[axis] = outer && coordinate == 1 ? covered_.lower[axis] : from - slack_[axis];
+    bounds.upper[axis] = outer && coordinate == view_.size[axis] - 2 ? covered_.upper[axis] : from + width_[axis] + slack_[axis];
+  }
+
   /// Lays the grid over the bounds, with cells of at least `cell` >= 1 support radii. Particles beyond the margin fall into the
   /// outermost cells: right, though slow, for the few unseen ones of a deep throat.
   void cover(const Bounds<Real>& bounds, Real cell = Real(1)) {
+    covered_ = bounds;
     for (std::size_t a = 0; a < 3; ++a) {
       if (view_.periodic[a]) continue;
+      width_[a] = cell;
       scale_[a] = Real(1) / cell;
       if (one_cell_ || bounds.lower[a] > bounds.upper[a]) {
         origin_[a] = Real(0);
@@ -95,6 +109,7 @@ class CellGrid {
       }
       origin_[a] = std::floor(std::max(bounds.lower[a], lowest_[a]) * scale_[a]);
       setSize(a, std::max(0, static_cast<int>(std::min(bounds.upper[a], highest_[a]) * scale_[a] - origin_[a])) + 3);
+      slack_[a] = roundingOf(origin_[a], view_.size[a], cell);
     }
   }
 
@@ -128,6 +143,11 @@ class CellGrid {
     });
     std::uint32_t sum = 0;
     for (std::size_t c = 0; c < cells; ++c) {
+      if (c + 4 <= cells && fourEmpty(c, shares)) {  // most cells are empty, and nobody asks for their places
+        std::fill_n(start_.data() + c, 4, sum);
+        c += 3;
+        continue;
+      }
       start_[c] = sum;
       for (int share = 0; share < shares; ++share) {
         std::uint32_t& entry = histograms_[static_cast<std::size_t>(share)][c];
@@ -188,15 +208,31 @@ class CellGrid {
  private:
   static constexpr std::uint32_t kLongestRun = 64;  // what one call moves stays in the first-level cache
 
+  bool fourEmpty(std::size_t cell, int shares) const {
+    bool empty = true;
+    for (int share = 0; share < shares; ++share) {
+      empty = empty && fourZeros(histograms_[static_cast<std::size_t>(share)].data() + cell);
+    }
+    return empty;
+  }
+
   void setSize(std::size_t axis, int size) {
     view_.size[axis] = size;
     last_[axis] = static_cast<Real>(size - 3);
   }
 
+  /// How far off the place of a cell may be that stands `cells` from `origin`, in support radii.
+  static Real roundingOf(Real origin, int cells, Real width) {
+    return Real(8) * std::numeric_limits<Real>::epsilon() * (std::abs(origin) + static_cast<Real>(cells)) * width;
+  }
+
   GridView<Real> view_;
+  Bounds<Real> covered_;
   std::array<Real, 3> corner_{};  ///< what cells are counted from: the domain's corner where periodic, else the origin
   std::array<Real, 3> origin_{};  ///< the first cell of the bounds, counted from there
   std::array<Real, 3> scale_{Real(1), Real(1), Real(1)};  ///< cells per support radius, <= 1
+  std::array<Real, 3> width_{Real(1), Real(1), Real(1)};  ///< of a cell, in support radii
+  std::array<Real, 3> slack_{};                           ///< rounding of a cell's place, in support radii
   std::array<Real, 3> last_{};                            ///< the outermost cell, counted from the first
   std::array<Real, 3> lowest_{}, highest_{};              ///< what the grid covers at most, in support radii
   bool one_cell_ = false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "service/sph/aligned_array.h"
@@ -33,16 +34,12 @@ class WallEffects {
       : field_{std::move(field)}, constants_{constants} {
     if (field_.empty()) return;
     share_ = AlignedArray<Real>{capacity, 17};
-    for (int share = 0; share < shares; ++share) touching_.emplace_back(capacity, 19u, Uninitialized{});
+    touching_ = AlignedArray<Touching>{capacity, 19u, Uninitialized{}};
     counts_.resize(static_cast<std::size_t>(shares), Count{});
   }
 
   bool empty() const { return field_.empty(); }
-  std::size_t bytes() const {
-    std::size_t sum = share_.bytes();
-    for (const AlignedArray<Touching>& list : touching_) sum += list.bytes();
-    return sum;
-  }
+  std::size_t bytes() const { return share_.bytes() + touching_.bytes(); }
   const TissueField<Real>& field() const { return field_; }
   /// The tissue's share of density per particle; null without tissue.
   const Real* share() const { return share_.empty() ? nullptr : share_.data(); }
@@ -53,19 +50,26 @@ class WallEffects {
     if (field_.empty()) return;
     executor.run(shares, [&](int share) {
       const GridView<Real>& view = grid.view();
-      Touching* const list = touching_[static_cast<std::size_t>(share)].data();
-      std::uint32_t length = 0;
+      const int first = grid.firstRow(share, shares, count);
       const int end = grid.firstRow(share + 1, shares, count);
-      for (int row = grid.firstRow(share, shares, count); row < end; ++row) {
+      Count& own = counts_[static_cast<std::size_t>(share)];
+      own.begin = view.rowBegin(first);
+      Touching* const list = touching_.data() + own.begin;
+      std::fill(share_.data() + own.begin, share_.data() + view.rowBegin(end), Real(0));
+      std::uint32_t length = 0;
+      Bounds<Real> bounds;
+      for (int row = first; row < end; ++row) {
         if (view.rowBegin(row) == view.rowEnd(row)) continue;
+        grid.narrow(1, row % view.size[1], bounds);
+        grid.narrow(2, row / view.size[1], bounds);
         for (int x = 1; x < view.size[0] - 1; ++x) {
           const std::size_t cell = view.cell(row, x);
-          if (view.start[cell] != view.start[cell + 1]) {
-            length += sampleCell(p, wounds, view.start[cell], view.start[cell + 1], list + length);
-          }
+          if (view.start[cell] == view.start[cell + 1]) continue;
+          grid.narrow(0, x, bounds);
+          length += sampleCell(p, wounds, bounds, view.start[cell], view.start[cell + 1], list + length);
         }
       }
-      counts_[static_cast<std::size_t>(share)].touching = length;
+      own.touching = length;
     });
   }
 
@@ -75,10 +79,7 @@ class WallEffects {
   template <class Visit>
   void forEachTouching(int share, Visit&& visit) const {
     if (field_.empty()) return;
-    const Touching* list = touching_[static_cast<std::size_t>(share)].data();
-    for (std::uint32_t k = 0; k < counts_[static_cast<std::size_t>(share)].touching; ++k) {
-      visit(list[k].particle, list[k].wall, list[k].closed);
-    }
+    for (const Touching& entry : touching(share)) visit(entry.particle, entry.wall, entry.closed);
   }
 
   /// Adds to the accelerations. Velocities are those of the half step. With `drag`, friction goes there as a rate in 1/s, one for
@@ -86,8 +87,7 @@ class WallEffects {
   void addForces(const Particles<Real>& p, PairPasses<Real>& passes, int shares, Executor& executor, Real* drag) const {
     if (field_.empty()) return;
     executor.run(shares, [&](int share) {
-      const Touching* list = touching_[static_cast<std::size_t>(share)].data();
-      for (std::uint32_t k = 0; k < counts_[static_cast<std::size_t>(share)].touching; ++k) addForce(list[k], p, passes, drag);
+      for (const Touching& entry : touching(share)) addForce(entry, p, passes, drag);
     });
   }
 
@@ -98,8 +98,7 @@ class WallEffects {
     executor.run(shares, [&](int share) {
       Count& count = counts_[static_cast<std::size_t>(share)];
       count.projected = 0;
-      for (std::uint32_t k = 0; k < count.touching; ++k) {
-        const Touching& entry = touching_[static_cast<std::size_t>(share)][k];
+      for (const Touching& entry : touching(share)) {
         if (entry.wall.distance < Real(0) && projectOne(entry.particle, p)) ++count.projected;
       }
     });
@@ -115,29 +114,29 @@ class WallEffects {
     WallSample<Real> wall;
   };
   struct alignas(64) Count {
+    std::uint32_t begin = 0;  // in touching_
     std::uint32_t touching = 0;
     std::uint64_t projected = 0;
   };
 
-  /// Of the particles from `begin` to `end`, one cell's; returns how many touch.
-  std::uint32_t sampleCell(const Particles<Real>& p, const WoundSet& wounds, std::uint32_t begin, std::uint32_t end,
-                           Touching* list) {
-    std::fill(share_.data() + begin, share_.data() + end, Real(0));
-    std::array<Real, 3> lower{p.x[begin], p.y[begin], p.z[begin]};
-    std::array<Real, 3> upper = lower;
-    for (std::uint32_t i = begin + 1; i < end; ++i) {
-      lower = {std::min(lower[0], p.x[i]), std::min(lower[1], p.y[i]), std::min(lower[2], p.z[i])};
-      upper = {std::max(upper[0], p.x[i]), std::max(upper[1], p.y[i]), std::max(upper[2], p.z[i])};
-    }
+  std::span<const Touching> touching(int share) const {
+    const Count& own = counts_[static_cast<std::size_t>(share)];
+    return {touching_.data() + own.begin, own.touching};
+  }
+
+  /// Of the particles from `begin` to `end`, those of a cell with these bounds; returns how many touch.
+  std::uint32_t sampleCell(const Particles<Real>& p, const WoundSet& wounds, const Bounds<Real>& bounds, std::uint32_t begin,
+                           std::uint32_t end, Touching* list) {
+    using Nearness = typename TissueField<Real>::Nearness;
+    std::array<Real, 3> lower = bounds.lower;
+    std::array<Real, 3> upper = bounds.upper;
     for (std::size_t a = 0; a < 3; ++a) {
       lower[a] *= constants_.h;
       upper[a] *= constants_.h;
     }
-    using Nearness = typename TissueField<Real>::Nearness;
     const auto near = field_.nearby(lower, upper);
     if (near.nearness == Nearness::none) return 0;
-    const bool near_wound = wounds.mayOpen(asVec3(lower), asVec3(upper));
-    const WoundSet* const open = near_wound ? &wounds : nullptr;
+    const WoundSet* const open = wounds.mayOpen(asVec3(lower), asVec3(upper)) ? &wounds : nullptr;
     switch (near.nearness) {
       case Nearness::plane:
         return sampleLone<Nearness::plane>(p, open, near, begin, end, list);
@@ -252,7 +251,7 @@ class WallEffects {
   TissueField<Real> field_;
   WallConstants<Real> constants_;
   AlignedArray<Real> share_;
-  std::vector<AlignedArray<Touching>> touching_;
+  AlignedArray<Touching> touching_;  // a share's from the place of its first particle on
   std::vector<Count> counts_;
 };
 
