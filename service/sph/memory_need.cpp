@@ -14,7 +14,7 @@ namespace {
 // Bytes for each particle of the capacity, from the arrays of single precision; every effect taken as on.
 constexpr double kState = 2 * 12 * 4;      // twice, for the sort
 constexpr double kPasses = 4 * 16 + 44;    // record, density, accelerations, places of lists
-constexpr double kTissueAndEffects = 160;  // shares, moments, residuals, normals
+constexpr double kTissueAndEffects = 144;  // walls 64, scratch 64, rates 8, bodies 8
 constexpr double kFrames = 4 * 44;         // three buffers and the sample
 // Neighbour lists as PairPasses reserves them; each thread reserves for all and uses its share.
 constexpr double kBytesOfEntry = 8.0;  // a neighbour's record and its distance

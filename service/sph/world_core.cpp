@@ -87,7 +87,7 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     if (effects.core_radius) literal_radius_.emplace(description, lattice, options.threads);
   } else {
     if (effects.core_radius) core_radius_.emplace(*effects.core_radius, description.rest_density, options.threads);
-    if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, tables.sweeps.shear_rate);
+    if (shearRateNeeded(effects)) shear_rate_.emplace(description, lattice, tables.sweeps.shear_rate, scratch_);
     if (viscosityChanges(effects)) rheology_.emplace(effects, options.threads);
     thins_ = viscosityThins(effects);
     if (effects.platelets) {
@@ -101,15 +101,16 @@ WorldCore<Real>::WorldCore(const WorldDescription& description, const WorldOptio
     const auto product = varies ? tables.sweeps.viscous_product : tables.sweeps.uniform_viscous_product;
     implicit_viscosity_.emplace(ImplicitSettings{viscosity.solve_tolerance, viscosity.max_iterations}, product,
                                 Real(5) * pairConstants<Real>(description, lattice, speed_of_sound_).viscosity_scale,
-                                description.capacity);
+                                description.capacity, scratch_);
   }
   if (description.effects.applied_force) {
     applied_force_.emplace(description.effects.applied_force->max_sources, lattice.particle_mass, h_, description.domain);
   }
   if (description.effects.surface_tension && description.model == Model::sound) {
     surface_tension_.emplace(*description.effects.surface_tension, tables.sweeps.curvature, lattice.particle_mass,
-                             description.rest_density, h_, description.capacity);
+                             description.rest_density, h_, description.capacity, scratch_);
   }
+  scratch_.allocate();
 }
 
 template <class Real>

@@ -28,6 +28,7 @@
 #include "service/sph/rest_lattice.h"
 #include "service/sph/seeding.h"
 #include "service/sph/stage_clock.h"
+#include "service/sph/step_scratch.h"
 #include "service/sph/tissue/wall_effects.h"
 #include "service/sph/world.h"
 #include "service/sph/wound/wound_set.h"
@@ -135,6 +136,7 @@ class WorldCore final : public World {
   std::optional<LiteralForces<Real>> literal_;
   std::optional<LiteralCoreRadius<Real>> literal_radius_;
   std::optional<CoreRadius<Real>> core_radius_;
+  StepScratch scratch_;
   std::optional<ShearRate<Real>> shear_rate_;
   std::optional<EffectiveViscosity<Real>> rheology_;
   std::optional<Clotting<Real>> clotting_;

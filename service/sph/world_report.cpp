@@ -44,6 +44,7 @@ MemoryUse WorldCore<Real>::memory() const {
   use.lists = passes_.listBytes();
   use.grid = grid_.bytes() + coincidence_.bytes();
   use.tissue = walls_.bytes();
+  use.effects = scratch_.bytes();
   if (shear_rate_) use.effects += shear_rate_->bytes();
   if (implicit_viscosity_) use.effects += implicit_viscosity_->bytes();
   if (surface_tension_) use.effects += surface_tension_->bytes();

@@ -34,7 +34,9 @@ class TensionRig : public test::ParticleRig<Real> {
                  this->lattice_.particle_mass,
                  description.rest_density,
                  this->h_,
-                 this->count_} {
+                 this->count_,
+                 scratch_} {
+    scratch_.allocate();
     run();
   }
 
@@ -75,6 +77,7 @@ class TensionRig : public test::ParticleRig<Real> {
 
   WallEffects<Real> walls_;
   WoundSet wounds_;
+  StepScratch scratch_;
   SurfaceTension<Real> tension_;
   std::vector<Vec3> acceleration_;
 };

@@ -23,6 +23,7 @@
 #include "service/sph/passes/pair_passes.h"
 #include "service/sph/passes/sweep_table.h"
 #include "service/sph/share_range.h"
+#include "service/sph/step_scratch.h"
 
 namespace bleedsim::sph {
 
@@ -40,18 +41,20 @@ struct SolveOutcome {
 template <class Real>
 class ImplicitViscosity {
  public:
+  /// `scratch` outlives this and is left alone in solve().
   ImplicitViscosity(const ImplicitSettings& settings, SweepFunction<ViscousProductJob<Real>> product, Real scale,
-                    std::uint32_t capacity)
+                    std::uint32_t capacity, StepScratch& scratch)
       : settings_{settings},
         product_function_{product},
         scale_{scale},
-        residual_{std::size_t{capacity} * 4, 61},
-        product_{std::size_t{capacity} * 4, 67},
+        scratch_{scratch},
         drag_{capacity, 71},
-        partial_((capacity + kBlock - 1) / kBlock) {}
+        partial_((capacity + kBlock - 1) / kBlock) {
+    scratch.reserve(productsAt(capacity) + std::size_t{capacity} * 4 * sizeof(Real));
+  }
 
   std::uintptr_t code() const { return codeOf(product_function_); }
-  std::size_t bytes() const { return residual_.bytes() + product_.bytes() + drag_.bytes(); }
+  std::size_t bytes() const { return drag_.bytes(); }
 
   /// Friction of tissue on particle i as a rate, 1/s, <= 0; all zero after clearDrag().
   Real* drag() { return drag_.data(); }
@@ -62,6 +65,9 @@ class ImplicitViscosity {
   SolveOutcome solve(double dt, const CellGrid<Real>& grid, Particles<Real>& p, PairPasses<Real>& passes, std::uint32_t count,
                      int shares, Executor& executor) {
     const Sweep s{grid, p, passes, count, shares, executor, static_cast<Real>(dt)};
+    const auto capacity = static_cast<std::uint32_t>(drag_.size());
+    residual_ = scratch_.take<Real>(0, std::size_t{capacity} * 4);
+    product_ = scratch_.take<Real>(productsAt(capacity), std::size_t{capacity} * 4);
     const double enough = settings_.tolerance * settings_.tolerance * start(s);
     double residual2 = sumOf(s, [&](std::uint32_t i) { return square(residualOf(i)); });
     SolveOutcome outcome;
@@ -98,8 +104,11 @@ class ImplicitViscosity {
     Real dt;
   };
 
-  Real* residualOf(std::uint32_t i) { return residual_.data() + std::size_t{i} * 4; }
-  Real* productOf(std::uint32_t i) { return product_.data() + std::size_t{i} * 4; }
+  /// In the scratch, behind the residuals; a few lines further, so that both do not meet in the first-level cache.
+  static std::size_t productsAt(std::uint32_t capacity) { return std::size_t{capacity} * 4 * sizeof(Real) + 7 * 64; }
+
+  Real* residualOf(std::uint32_t i) { return residual_ + std::size_t{i} * 4; }
+  Real* productOf(std::uint32_t i) { return product_ + std::size_t{i} * 4; }
 
   static double square(const Real* v) {
     double sum = 0.0;
@@ -136,7 +145,7 @@ class ImplicitViscosity {
   void multiply(const Sweep& s) {
     ViscousProductJob<Real> job;
     job.scale = scale_;
-    job.product = product_.data();
+    job.product = product_;
     s.passes.sweep(s.grid, s.particles, s.count, s.shares, s.executor, product_function_, job);
   }
 
@@ -197,9 +206,10 @@ class ImplicitViscosity {
   ImplicitSettings settings_;
   SweepFunction<ViscousProductJob<Real>> product_function_;
   Real scale_;
-  AlignedArray<Real> residual_;  // 4 per particle, m/s; the last is not used
-  AlignedArray<Real> product_;   // 4 per particle
-  AlignedArray<Real> drag_;      // 1/s
+  StepScratch& scratch_;
+  Real* residual_ = nullptr;  // these two in the scratch: 4 per particle, m/s; the last is not used
+  Real* product_ = nullptr;   // 4 per particle
+  AlignedArray<Real> drag_;   // 1/s
   std::vector<double> partial_;
 };
 

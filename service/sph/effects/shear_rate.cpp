@@ -16,33 +16,37 @@ bool shearRateNeeded(const EffectSettings& effects) {
 
 template <class Real>
 ShearRate<Real>::ShearRate(const WorldDescription& description, const RestLattice& lattice,
-                           SweepFunction<ShearRateJob<Real>> sweep)
+                           SweepFunction<ShearRateJob<Real>> sweep, StepScratch& scratch)
     : sweep_{sweep},
       h_{static_cast<Real>(description.supportRadius())},
       least_distance_{static_cast<Real>(0.25 / description.support_ratio)},
       scale_{static_cast<Real>(kernelNorms(KernelType::wendland_c2).gradient * lattice.particle_mass /
                                (std::numbers::pi * std::pow(description.supportRadius(), 3)))},
-      moments_{std::size_t{description.capacity} * kShearMoments, 61},
-      rate_{description.capacity, 67} {}
+      scratch_{scratch},
+      rate_{description.capacity, 67} {
+  scratch.reserve(rate_.size() * kShearMoments * sizeof(Real));
+}
 
 template <class Real>
 void ShearRate<Real>::update(const CellGrid<Real>& grid, const Particles<Real>& p, const WallEffects<Real>& walls,
                              PairPasses<Real>& passes, std::uint32_t count, int shares, Executor& executor) {
   ShearRateJob<Real> job;
   job.scale = scale_;
-  job.moments = moments_.data();
+  job.moments = scratch_.take<Real>(0, rate_.size() * kShearMoments);
   passes.sweep(grid, p, count, shares, executor, sweep_, job);
   executor.run(shares, [&](int share) {
-    walls.forEachTouching(share, [&](std::uint32_t i, const WallSample<Real>& wall, Real) { addWall(i, p, wall); });
+    walls.forEachTouching(share, [&](std::uint32_t i, const WallSample<Real>& wall, Real) {
+      addWall(p, i, wall, job.moments + std::size_t{i} * kShearMoments);
+    });
     const std::uint32_t end = grid.view().rowBegin(grid.firstRow(share + 1, shares, count));
     for (std::uint32_t i = grid.view().rowBegin(grid.firstRow(share, shares, count)); i < end; ++i) {
-      rate_[i] = shearRateOf(moments_.data() + std::size_t{i} * kShearMoments) / h_;
+      rate_[i] = shearRateOf(job.moments + std::size_t{i} * kShearMoments) / h_;
     }
   });
 }
 
 template <class Real>
-void ShearRate<Real>::addWall(std::uint32_t i, const Particles<Real>& p, const WallSample<Real>& wall) {
+void ShearRate<Real>::addWall(const Particles<Real>& p, std::uint32_t i, const WallSample<Real>& wall, Real* moments) const {
   const Real slope =
       std::sqrt(wall.gradient[0] * wall.gradient[0] + wall.gradient[1] * wall.gradient[1] + wall.gradient[2] * wall.gradient[2]);
   std::array<Real, 3> out = wall.normal;
@@ -54,7 +58,6 @@ void ShearRate<Real>::addWall(std::uint32_t i, const Particles<Real>& p, const W
   const Real normal_part = distance * strength;
   const Real drag = wall.grip * (strength + wall.share / distance);
   const Real v[3] = {p.vx[i], p.vy[i], p.vz[i]};
-  Real* moments = moments_.data() + std::size_t{i} * kShearMoments;
   for (std::size_t a = 0; a < 3; ++a) {
     for (std::size_t b = 0; b < 3; ++b) moments[4 * a + b] += drag * v[a] * out[b];
     moments[4 * a + 3] += wall.share + normal_part * out[a] * out[a];

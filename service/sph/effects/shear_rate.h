@@ -24,6 +24,7 @@
 #include "service/sph/passes/pair_passes.h"
 #include "service/sph/passes/sweep_table.h"
 #include "service/sph/rest_lattice.h"
+#include "service/sph/step_scratch.h"
 #include "service/sph/tissue/wall_effects.h"
 #include "service/sph/world_description.h"
 
@@ -35,8 +36,9 @@ bool shearRateNeeded(const EffectSettings& effects);
 template <class Real>
 class ShearRate {
  public:
-  /// `sweep` as of the world's tables.
-  ShearRate(const WorldDescription& description, const RestLattice& lattice, SweepFunction<ShearRateJob<Real>> sweep);
+  /// `sweep` as of the world's tables; `scratch` outlives this.
+  ShearRate(const WorldDescription& description, const RestLattice& lattice, SweepFunction<ShearRateJob<Real>> sweep,
+            StepScratch& scratch);
 
   /// After density: from the records and the walls that were sampled with the same `shares`.
   void update(const CellGrid<Real>& grid, const Particles<Real>& p, const WallEffects<Real>& walls, PairPasses<Real>& passes,
@@ -44,16 +46,16 @@ class ShearRate {
 
   const Real* data() const { return rate_.data(); }  ///< g by particle, 1/s
   std::uintptr_t code() const { return codeOf(sweep_); }
-  std::size_t bytes() const { return moments_.bytes() + rate_.bytes(); }
+  std::size_t bytes() const { return rate_.bytes(); }
 
  private:
-  void addWall(std::uint32_t i, const Particles<Real>& p, const WallSample<Real>& wall);
+  void addWall(const Particles<Real>& p, std::uint32_t i, const WallSample<Real>& wall, Real* moments) const;
 
   SweepFunction<ShearRateJob<Real>> sweep_;
   Real h_;               // m
   Real least_distance_;  // dx/4, in h
   Real scale_;
-  AlignedArray<Real> moments_;
+  StepScratch& scratch_;
   AlignedArray<Real> rate_;
 };
 

@@ -19,25 +19,18 @@ constexpr double kLeastTangent = 0.1;
 
 template <class Real>
 SurfaceTension<Real>::SurfaceTension(const SurfaceTensionSettings& settings, SweepFunction<CurvatureJob<Real>> sweep, double mass,
-                                     double rest_density, double h, std::uint32_t capacity)
-    : sweep_{sweep},
-      h_{static_cast<Real>(h)},
-      normal_{std::size_t{capacity} * 4, 71},
-      acceleration_{std::size_t{capacity} * 4, 73},
-      totals_{capacity, 79},
-      bodies_{capacity} {
+                                     double rest_density, double h, std::uint32_t capacity, StepScratch& scratch)
+    : sweep_{sweep}, h_{static_cast<Real>(h)}, capacity_{capacity}, scratch_{scratch}, bodies_{capacity} {
+  scratch.reserve(accelerationsAt(capacity) + std::size_t{capacity} * 4 * sizeof(Real));
   const KernelNorms norms = kernelNorms(KernelType::wendland_c2);
   const double gradient = mass / rest_density / (h * h * h) * norms.gradient / std::numbers::pi;
   const double kinematic = settings.coefficient / rest_density;
   normals_.scale = static_cast<Real>(gradient);
   normals_.cutoff = static_cast<Real>(settings.normal_cutoff);
-  normals_.normal = normal_.data();
   curvature_.ratio = static_cast<Real>(norms.gradient / norms.weight);
   curvature_.largest = static_cast<Real>(kSharpest);
   curvature_.scale = static_cast<Real>(kJump * kinematic / (h * h));
   curvature_.damping = static_cast<Real>(10.0 * kDamping * std::sqrt(kinematic * h) * gradient / (h * h));
-  curvature_.normal = normal_.data();
-  curvature_.acceleration = acceleration_.data();
   if (settings.contact_angle) {
     contact_ = {static_cast<Real>(std::cos(*settings.contact_angle)), static_cast<Real>(std::sin(*settings.contact_angle))};
   }
@@ -53,7 +46,14 @@ SurfaceNormals<Real> SurfaceTension<Real>::begin(const Particles<Real>& p, const
       });
     });
   }
+  const std::size_t reals = std::size_t{capacity_} * 4;
+  totals_ = scratch_.take<Total>(0, capacity_);
+  normal_ = scratch_.take<Real>(normalsAt(capacity_), reals);
+  acceleration_ = scratch_.take<Real>(accelerationsAt(capacity_), reals);
+  curvature_.normal = normal_;
+  curvature_.acceleration = acceleration_;
   SurfaceNormals<Real> normals = normals_;
+  normals.normal = normal_;
   normals.driver = p.driver.data();
   normals.record = passes.record(0);
   return normals;
@@ -72,7 +72,7 @@ template <class Real>
 void SurfaceTension<Real>::meetTissue(const WallEffects<Real>& walls, PairPasses<Real>& passes, int shares, Executor& executor) {
   executor.run(shares, [&](int share) {
     walls.forEachTouching(share, [&](std::uint32_t i, const WallSample<Real>& wall, Real closed) {
-      Real* const normal = normal_.data() + std::size_t{i} * 4;
+      Real* const normal = normal_ + std::size_t{i} * 4;
       Real* const surface = passes.record(i) + kRecordNormalX;
       normal[3] = Real(1);
       const bool open_wound = closed < Real(1);

@@ -45,6 +45,7 @@
 #include "service/sph/particles.h"
 #include "service/sph/passes/pair_passes.h"
 #include "service/sph/passes/sweep_table.h"
+#include "service/sph/step_scratch.h"
 #include "service/sph/tissue/wall_effects.h"
 
 namespace bleedsim::sph {
@@ -52,9 +53,10 @@ namespace bleedsim::sph {
 template <class Real>
 class SurfaceTension {
  public:
-  /// `mass` of a particle, kg; `rest_density` kg/m^3; `h` m. The passes it works with must have PairSet::tension.
+  /// `mass` of a particle, kg; `rest_density` kg/m^3; `h` m. The passes it works with must have PairSet::tension; `scratch`
+  /// outlives this and is left alone from begin() to the end of add().
   SurfaceTension(const SurfaceTensionSettings& settings, SweepFunction<CurvatureJob<Real>> sweep, double mass,
-                 double rest_density, double h, std::uint32_t capacity);
+                 double rest_density, double h, std::uint32_t capacity, StepScratch& scratch);
 
   /// What a step's pair forces are given to find the normals. `walls` has sampled the same particles.
   SurfaceNormals<Real> begin(const Particles<Real>& p, const WallEffects<Real>& walls, PairPasses<Real>& passes, int shares,
@@ -64,7 +66,7 @@ class SurfaceTension {
            std::uint32_t count, int shares, Executor& executor);
 
   std::uintptr_t code() const { return codeOf(sweep_); }
-  std::size_t bytes() const { return normal_.bytes() + acceleration_.bytes() + totals_.bytes() + bodies_.bytes(); }
+  std::size_t bytes() const { return bodies_.bytes(); }
 
  private:
   struct ContactAngle {
@@ -76,6 +78,12 @@ class SurfaceTension {
     std::uint32_t particles;
     bool held;
   };
+  // In the scratch, in this order; the lines between them keep rows of one particle from meeting in the first-level cache.
+  static constexpr std::size_t kApart = 7 * 64;
+  static std::size_t normalsAt(std::uint32_t capacity) { return std::size_t{capacity} * sizeof(Total) + kApart; }
+  static std::size_t accelerationsAt(std::uint32_t capacity) {
+    return normalsAt(capacity) + std::size_t{capacity} * 4 * sizeof(Real) + kApart;
+  }
 
   void meetTissue(const WallEffects<Real>& walls, PairPasses<Real>& passes, int shares, Executor& executor);
   void turn(const WallSample<Real>& wall, Real* surface, Real* normal) const;
@@ -88,9 +96,11 @@ class SurfaceTension {
   SurfaceNormals<Real> normals_;
   CurvatureJob<Real> curvature_;
   std::optional<ContactAngle> contact_;
-  AlignedArray<Real> normal_;        // 4 per particle: n h; whether something holds the particle, 0 or 1
-  AlignedArray<Real> acceleration_;  // 4 per particle, of tension alone, m/s^2
-  AlignedArray<Total> totals_;
+  std::uint32_t capacity_;
+  StepScratch& scratch_;
+  Total* totals_ = nullptr;       // these three in the scratch
+  Real* normal_ = nullptr;        // 4 per particle: n h; whether something holds the particle, 0 or 1
+  Real* acceleration_ = nullptr;  // 4 per particle, of tension alone, m/s^2
   FluidBodies<Real> bodies_;
 };
 

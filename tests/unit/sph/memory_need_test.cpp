@@ -57,7 +57,7 @@ TEST(CheckMemory, RefusesWithBothFiguresAndWhatToDo) {
   EXPECT_TRUE(checkMemory(d, 2, memoryNeed(d, 2)).ok());
   const Status refused = checkMemory(d, 2, std::uint64_t{512} << 20U);
   EXPECT_EQ(refused.code(), StatusCode::capacity);
-  EXPECT_THAT(refused.message(), HasSubstr("a capacity of 2000000 particles needs 2"));
+  EXPECT_THAT(refused.message(), HasSubstr("a capacity of 2000000 particles needs 1"));
   EXPECT_THAT(refused.message(), HasSubstr("512 MiB are available: lower domain.capacity"));
 }
 
