@@ -298,9 +298,10 @@ template <class Job>
 bool WorldCore<Real>::passPairsAtOnce(void (*forces)(const Job&), const Job& job) {
   const auto& periodic = description_.domain.periodic;
   if (forces == nullptr || periodic[0] || periodic[1] || periodic[2]) return false;
+  const bool keep = surface_tension_ || solving_viscosity_ || (clotting_ && clotting_due_);
   double force_part = 0.0;
   counter(Counter::neighbor_overflow) +=
-      passes_.densityAndSweep(grid_, particles_, walls_.share(), count_, shares_, *executor_, forces, job, force_part);
+      passes_.densityAndSweep(grid_, particles_, walls_.share(), count_, shares_, *executor_, forces, job, keep, force_part);
   clock_.lap(Stage::density, Stage::force, force_part);
   return true;
 }

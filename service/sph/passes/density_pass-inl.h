@@ -196,7 +196,7 @@ class DensityPass {
     std::uint64_t overflowed = 0;  // bit per particle
     for (std::uint32_t k = 0; k < size; k += 2) {
       const bool two = k + 1 < size;
-      if (job_.lists->used + 2 * kMaxNeighbors > job_.lists->capacity) {
+      if (job_.lists->used + 2 * kMaxNeighbors > job_.lists->end && !job_.lists->goOn()) {
         overflowed |= (two ? std::uint64_t{3} : std::uint64_t{1}) << k;
         lengths_[k] = 0;
         if (two) lengths_[k + 1] = 0;

@@ -12,6 +12,7 @@
 #include "service/sph/executor.h"
 #include "service/sph/neighbors/cell_grid.h"
 #include "service/sph/particles.h"
+#include "service/sph/passes/list_stretches.h"
 #include "service/sph/passes/pass_table.h"
 #include "service/sph/quad.h"
 #include "service/sph/running_code.h"
@@ -72,8 +73,8 @@ class PairPasses {
     for (int share = 0; share < shares; ++share) {
       entries_.emplace_back(std::size_t{capacity} * per_particle + 64 * kMaxNeighbors, 59u, Uninitialized{});
       distances_.emplace_back(entries_.back().size(), 61u, Uninitialized{});
-      lists_.push_back(
-          {.entries = entries_.back().data(), .distances = distances_.back().data(), .capacity = entries_.back().size()});
+      lists_.push_back({.entries = entries_.back().data(), .distances = distances_.back().data()});
+      stretches_.emplace_back(entries_.back().size());
     }
     overflowed_.resize(static_cast<std::size_t>(shares));
   }
@@ -105,10 +106,12 @@ class PairPasses {
   }
 
   /// density() and a walk over its lists in one, the walk one layer of cells behind: lists and records are in the caches still.
-  /// Not with periodic sides, where the first row waits for the last. `walk_part` gets the walk's part of the time.
+  /// Not with periodic sides, where the first row waits for the last. `keep`: another walk over the lists will follow; without it
+  /// their room is used again and again. `walk_part` gets the walk's part of the time.
   template <class Job>
   std::uint64_t densityAndSweep(const CellGrid<Real>& grid, const Particles<Real>& p, const Real* wall_share, std::uint32_t count,
-                                int shares, Executor& executor, void (*function)(const Job&), const Job& job, double& walk_part) {
+                                int shares, Executor& executor, void (*function)(const Job&), const Job& job, bool keep,
+                                double& walk_part) {
     setDummy(count);
     const int layer = grid.view().size[1] + 1;  // a row needs the densities of so many rows before and behind it
     StageClock times;                           // of the first share
@@ -119,12 +122,16 @@ class PairPasses {
       const int end = grid.firstRow(share + 1, shares, count);
       const int own = begin + (share == 0 ? 0 : layer);  // the rows before wait for the other share
       int walked = own;
+      ListStretches& stretches = stretches_[static_cast<std::size_t>(share)];
+      if (!keep) stretches.begin(grid.view(), begin, end, own, kChunk, *densities.lists);
       for (int row = begin; row < end;) {
         if (share == 0) times.start();
         densities.row_begin = row;
         row = grid.view().rowsWith(kChunk, row, end);
         densities.row_end = row;
+        if (!keep) stretches.prepare(densities.row_begin, walked, *densities.lists);
         density_function_(densities);
+        if (!keep) stretches.note(densities.row_begin, densities.row_end, *densities.lists);
         if (share == 0) times.lap(Stage::density);
         if (row - layer <= walked) continue;
         walk.row_begin = walked;
@@ -282,6 +289,8 @@ class PairPasses {
                               int share) {
     NeighborLists<Real>& lists = lists_[static_cast<std::size_t>(share)];
     lists.used = 0;
+    lists.end = entries_[static_cast<std::size_t>(share)].size();
+    lists.next_begin = lists.next_end = 0;
     DensityJob<Real> job;
     job.grid = grid.view();
     job.x = p.x.data();
@@ -391,6 +400,7 @@ class PairPasses {
   std::vector<AlignedArray<std::uint32_t>> entries_;
   std::vector<AlignedArray<Real>> distances_;
   std::vector<NeighborLists<Real>> lists_;
+  std::vector<ListStretches> stretches_;
   std::vector<std::uint64_t> overflowed_;
   Real reach_ = 1;
 };

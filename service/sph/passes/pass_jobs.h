@@ -29,8 +29,19 @@ template <class Real>
 struct NeighborLists {
   std::uint32_t* entries = nullptr;
   Real* distances = nullptr;  ///< / h
-  std::size_t capacity = 0;
   std::size_t used = 0;
+  std::size_t end = 0;         ///< of the room at work
+  std::size_t next_begin = 0;  ///< of the room to go on in when that is full (ListStretches); empty: none
+  std::size_t next_end = 0;
+
+  /// Whether there is room to go on in; then it is at work.
+  bool goOn() {
+    if (next_begin == next_end) return false;
+    used = next_begin;
+    end = next_end;
+    next_begin = next_end;
+    return true;
+  }
 };
 
 template <class Real>

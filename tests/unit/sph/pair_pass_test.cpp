@@ -116,6 +116,21 @@ TEST(PairPasses, DensitiesAndForcesAtOnceGiveTheSameBits) {
   }
 }
 
+/// So many particles that the room of the lists is cut into stretches, and written again behind the walk.
+TEST(PairPasses, ListsThatAreNotKeptGiveTheSameBits) {
+  WorldDescription description =
+      withPairSet(test::periodicBox({16, 16, 50}, 0.3), {PressureTerm::variational, ViscosityTerm::uniform});
+  description.domain.periodic = {false, false, false};
+  const PassRig<float> apart{description, SimdTarget::automatic, stirred(description)};
+  for (const int shares : {1, 2, 3}) {
+    PassRig<float> at_once{description, SimdTarget::automatic, stirred(description), shares};
+    for (int step = 0; step < 2; ++step) at_once.runAtOnce(false);
+    EXPECT_EQ(apart.density(), at_once.density()) << shares << " shares";
+    EXPECT_EQ(apart.acceleration(), at_once.acceleration()) << shares << " shares";
+    EXPECT_EQ(at_once.overflowed(), 0u);
+  }
+}
+
 TEST(PairPasses, RepulsionOfAnyPowersEqualsBruteForce) {
   const PairSet set{PressureTerm::none, ViscosityTerm::none, false, true};
   for (const auto& [higher, lower] : {std::pair{6, 4}, std::pair{5, 2}, std::pair{2, 1}, std::pair{7, 4}, std::pair{12, 6}}) {
