@@ -142,7 +142,7 @@ TEST(TissueField, aLoneWallAnswersAsAllOfThemDo) {
     if (near.nearness != Nearness::plane && near.nearness != Nearness::hollow) continue;
     for (int inner = 0; inner < 8; ++inner) {
       std::array<float, 3> x{};
-      for (std::size_t a = 0; a < 3; ++a) x[a] = std::clamp(float(stream.next(from[a], to[a])), from[a], to[a]);
+      for (std::size_t a = 0; a < 3; ++a) x[a] = std::clamp(float(stream.next(double(from[a]), double(to[a]))), from[a], to[a]);
       const float radius = float(stream.next(0.9, 1.3));
       WallSample<float> full;
       const bool touches = field.sample(x[0], x[1], x[2], full, radius);
