@@ -2,6 +2,7 @@
 #include "service/sph/neighbors/cell_grid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numeric>
@@ -125,6 +126,67 @@ TEST(CellGrid, SortsByCellAndKeepsTheOrderWithinACell) {
     ASSERT_GE(k, sorted.grid.view().start[cell]);
     ASSERT_LT(k, sorted.grid.view().start[cell + 1]);
     last_cell = cell;
+  }
+}
+
+// Far from the origin in single precision, where the cells' places are rounded; also beyond the margin and across periodic sides.
+TEST(CellGrid, BoundsOfACellHoldItsParticles) {
+  for (const Periodic& periodic : {Periodic{false, false, false}, Periodic{true, false, true}}) {
+    for (const double cell : {1.0, 1.13}) {
+      const double away = 5000.0;
+      CellGrid<float> grid{3000, {away, 0.0, -3.0}, {away + 700.0, 3.0, 0.0}, periodic, 1.0, 1, 1.3};
+      JitterSource random{7};
+      std::vector<std::array<float, 3>> points;
+      Bounds<float> bounds;
+      for (int k = 0; k < 3000; ++k) {
+        const auto within = [&random](double from, double side) {
+          return static_cast<float>(from + 0.5 * side * (1.0 + random.next()));
+        };
+        std::array<float, 3> p{within(away, 700.0), within(0.0, 3.0), within(-3.0, 3.0)};
+        if (k % 100 == 0 && !periodic[0]) p[0] += 20.0F;
+        if (k % 70 == 0) p[1] -= 5.0F;
+        points.push_back(p);
+        bounds.include(p[0], p[1], p[2]);
+      }
+      grid.cover(bounds, static_cast<float>(cell));
+      for (const auto& p : points) {
+        Bounds<float> of_cell;
+        for (std::size_t a = 0; a < 3; ++a) {
+          const int c = grid.coordinate(a, p[a]);
+          grid.narrow(a, c, of_cell);
+          ASSERT_GE(p[a], of_cell.lower[a]) << "axis " << a << ", cell " << c;
+          ASSERT_LE(p[a], of_cell.upper[a]) << "axis " << a << ", cell " << c;
+          const bool outermost = c == 1 || c == grid.view().size[a] - 2;
+          if (!outermost) { ASSERT_LT(of_cell.upper[a] - of_cell.lower[a], 1.6F) << "no wider than it must be"; }
+        }
+      }
+    }
+  }
+}
+
+// What a sort moves in one go, taken apart, is the sort.
+TEST(CellGrid, RunsAreTheSortTakenTogether) {
+  const Point sides{5.0, 4.0, 6.0};
+  std::vector<Point> points = randomPoints(3000, sides);
+  const Sorted first = sortPoints(points, sides, {false, false, false});
+  std::vector<Point> in_order;
+  for (const std::uint32_t i : first.order) in_order.push_back(points[i]);
+  std::swap(in_order[17], in_order[2400]);
+  for (const int shares : {1, 3}) {
+    const auto n = static_cast<std::uint32_t>(points.size());
+    const std::vector<std::uint32_t> removed{0, 5, 6, 1500, n - 1};
+    Sorted sorted = sortPoints(in_order, sides, {false, false, false}, shares, removed);
+    std::vector<std::uint32_t> order(n, n);
+    std::atomic<std::uint32_t> longest{0};
+    const auto executor = makeExecutor(shares);
+    const std::uint32_t count =
+        sorted.grid.sortRuns(n, shares, *executor, [&](std::uint32_t from, std::uint32_t to, std::uint32_t length) {
+          for (std::uint32_t k = 0; k < length; ++k) order[to + k] = from + k;
+          if (length > longest) longest = length;
+        });
+    order.resize(count);
+    EXPECT_EQ(order, sorted.order) << shares << " shares";
+    EXPECT_GT(longest, 30u) << "sorted particles keep together";
   }
 }
 
