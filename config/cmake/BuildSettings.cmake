@@ -18,7 +18,7 @@ if(CCACHE_PROGRAM)
 endif()
 
 add_library(bleedsim_options INTERFACE)
-# psabi: the compiler's own vectors wider than the baseline's (service/sph/quad.h) never cross a call between two objects.
+# psabi: calls that pass the compiler's own vectors, wider than the baseline's (service/sph/quad.h), are between objects of one baseline.
 # Contraction would let the compiler fuse a*b+c where it likes: results would depend on its mood. No fast-math, ever.
 target_compile_options(bleedsim_options INTERFACE -ffp-contract=off
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual

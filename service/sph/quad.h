@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -23,6 +24,15 @@ struct Quad {
   }
   static void store(const Vector& v, Real* to) { std::memcpy(to, &v, sizeof v); }
   static Vector set(Real value) { return Vector{value, value, value, value}; }
+
+  /// The columns of four rows of four.
+  static void loadColumns(const Real* rows, Vector& a, Vector& b, Vector& c, Vector& d) {
+    a = load(rows);
+    b = load(rows + kWidth);
+    c = load(rows + 2 * kWidth);
+    d = load(rows + 3 * kWidth);
+    transpose(a, b, c, d);
+  }
 
   /// Rows of four become columns, and columns rows.
   static void transpose(Vector& a, Vector& b, Vector& c, Vector& d) {

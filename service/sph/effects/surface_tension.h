@@ -37,7 +37,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "service/sph/aligned_array.h"
 #include "service/sph/effect_settings.h"
 #include "service/sph/executor.h"
 #include "service/sph/neighbors/cell_grid.h"
@@ -54,7 +53,7 @@ template <class Real>
 class SurfaceTension {
  public:
   /// `mass` of a particle, kg; `rest_density` kg/m^3; `h` m. The passes it works with must have PairSet::tension; `scratch`
-  /// outlives this and is left alone from begin() to the end of add().
+  /// outlives this and is left alone from the pair forces to the end of add().
   SurfaceTension(const SurfaceTensionSettings& settings, SweepFunction<CurvatureJob<Real>> sweep, double mass,
                  double rest_density, double h, std::uint32_t capacity, StepScratch& scratch);
 

@@ -2,14 +2,15 @@
 // energy. With the whole kick before the drift and none after it this is symplectic Euler, as the literal model has it.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "service/sph/neighbors/cell_grid.h"
 #include "service/sph/neighbors/domain_box.h"
 #include "service/sph/particles.h"
 #include "service/sph/quad.h"
+#include "service/sph/share_range.h"
 #include "service/sph/wound/wound_set.h"
 
 namespace bleedsim::sph {
@@ -70,12 +71,11 @@ class Drift {
   /// False, and nothing that counts has happened, where one of the four needs more than a drift.
   bool driftFour(std::uint32_t i) {
     if (!bounded_ || !fourZeros(p_.driver.data() + i)) return false;
-    const Real* a = acceleration_ + std::size_t{i} * 4;
-    V ax = Q::load(a), ay = Q::load(a + 4), az = Q::load(a + 8), unused = Q::load(a + 12);
-    Q::transpose(ax, ay, az, unused);
-    V x[3] = {place(p_.x, p_.vx, ax, i), place(p_.y, p_.vy, ay, i), place(p_.z, p_.vz, az, i)};
-    auto inside = x[0] >= Q::set(domain_.lower[0]);
-    for (std::size_t k = 0; k < 3; ++k) inside &= (x[k] >= Q::set(domain_.lower[k])) & (x[k] <= Q::set(domain_.upper[k]));
+    V ax, ay, az, unused;
+    Q::loadColumns(acceleration_ + std::size_t{i} * 4, ax, ay, az, unused);
+    V x[3] = {drifted(p_.x, p_.vx, ax, i), drifted(p_.y, p_.vy, ay, i), drifted(p_.z, p_.vz, az, i)};
+    auto inside = (x[0] >= Q::set(domain_.lower[0])) & (x[0] <= Q::set(domain_.upper[0]));
+    for (std::size_t k = 1; k < 3; ++k) inside &= (x[k] >= Q::set(domain_.lower[k])) & (x[k] <= Q::set(domain_.upper[k]));
     if (!Q::all(inside)) return false;
     for (std::size_t k = 0; k < 3; ++k) {
       lower_[k] = x[k] < lower_[k] ? x[k] : lower_[k];
@@ -91,7 +91,7 @@ class Drift {
     return true;
   }
 
-  V place(const AlignedArray<Real>& x, const AlignedArray<Real>& v, const V& a, std::uint32_t i) const {
+  V drifted(const AlignedArray<Real>& x, const AlignedArray<Real>& v, const V& a, std::uint32_t i) const {
     return Q::load(x.data() + i) + (Q::load(v.data() + i) + a * Q::set(half_dt_)) * Q::set(dt_per_h_);
   }
 
@@ -162,12 +162,12 @@ void kickOne(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p
 
 /// The places of `length` particles, 4 entries each in `moved`, into those from `to` on.
 template <class Real>
-void place(Particles<Real>& sorted, std::uint32_t to, const Real* moved, std::uint32_t length) {
+void copyPlaces(Particles<Real>& sorted, std::uint32_t to, const Real* moved, std::uint32_t length) {
   using Q = Quad<Real>;
   std::uint32_t k = 0;
   for (; k + Q::kWidth <= length; k += Q::kWidth, moved += 4 * Q::kWidth) {
-    auto x = Q::load(moved), y = Q::load(moved + 4), z = Q::load(moved + 8), unused = Q::load(moved + 12);
-    Q::transpose(x, y, z, unused);
+    typename Q::Vector x, y, z, unused;
+    Q::loadColumns(moved, x, y, z, unused);
     Q::store(x, sorted.x.data() + to + k);
     Q::store(y, sorted.y.data() + to + k);
     Q::store(z, sorted.z.data() + to + k);
@@ -193,9 +193,8 @@ void kick(Particles<Real>& sorted, std::uint32_t to, const Particles<Real>& p, s
       for (; k < end; ++k) kickOne(sorted, to + k, p, from + k, acceleration, half_dt, wounds);
       continue;
     }
-    const Real* a = acceleration + std::size_t{i} * 4;
-    V ax = Q::load(a), ay = Q::load(a + 4), az = Q::load(a + 8), unused = Q::load(a + 12);
-    Q::transpose(ax, ay, az, unused);
+    V ax, ay, az, unused;
+    Q::loadColumns(acceleration + std::size_t{i} * 4, ax, ay, az, unused);
     Q::store(Q::load(p.vx.data() + i) + ax * half, sorted.vx.data() + to + k);
     Q::store(Q::load(p.vy.data() + i) + ay * half, sorted.vy.data() + to + k);
     Q::store(Q::load(p.vz.data() + i) + az * half, sorted.vz.data() + to + k);

@@ -87,6 +87,7 @@ class CellGrid {
   std::uint32_t* cells() { return cell_of_.data(); }
 
   /// Narrows bounds, in support radii, to where the particles of a cell stand along an axis, given its 1-based coordinate there.
+  /// Along a periodic axis they must stand between the sides.
   void narrow(std::size_t axis, int coordinate, Bounds<Real>& bounds) const {
     const Real from = corner_[axis] + (origin_[axis] + static_cast<Real>(coordinate - 1)) * width_[axis];
     const bool outer = !view_.periodic[axis];  // the outermost cells hold all that is beyond them

@@ -14,7 +14,6 @@ namespace bleedsim::sph {
 
 class ListStretches {
  public:
-  ListStretches() = default;
   /// For lists with room for `capacity` entries. No function allocates later.
   explicit ListStretches(std::size_t capacity) : capacity_{capacity}, stretches_(capacity / kShortest + 1) {}
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -95,6 +96,7 @@ class PairPasses {
   std::uint64_t density(const CellGrid<Real>& grid, const Particles<Real>& p, const Real* wall_share, std::uint32_t count,
                         int shares, Executor& executor) {
     setDummy(count);
+    lists_kept_ = true;
     executor.run(shares, [&](int share) {
       DensityJob<Real> job = densityJob(grid, p, wall_share, count, share);
       job.row_begin = grid.firstRow(share, shares, count);
@@ -113,6 +115,7 @@ class PairPasses {
                                 int shares, Executor& executor, void (*function)(const Job&), const Job& job, bool keep,
                                 double& walk_part) {
     setDummy(count);
+    lists_kept_ = keep;
     const int layer = grid.view().size[1] + 1;  // a row needs the densities of so many rows before and behind it
     StageClock times;                           // of the first share
     executor.run(shares, [&](int share) {
@@ -199,6 +202,7 @@ class PairPasses {
   template <class Job>
   void sweep(const CellGrid<Real>& grid, const Particles<Real>& p, std::uint32_t count, int shares, Executor& executor,
              void (*function)(const Job&), const Job& job) {
+    assert(lists_kept_);
     executor.run(shares, [&](int share) {
       Job own = sweepJob(grid, p, count, share, job);
       own.row_begin = grid.firstRow(share, shares, count);
@@ -401,6 +405,7 @@ class PairPasses {
   std::vector<AlignedArray<Real>> distances_;
   std::vector<NeighborLists<Real>> lists_;
   std::vector<ListStretches> stretches_;
+  bool lists_kept_ = true;  // all of the last densities' lists stand
   std::vector<std::uint64_t> overflowed_;
   Real reach_ = 1;
 };

@@ -9,7 +9,7 @@
 namespace bleedsim::sph {
 
 constexpr int kMaxNeighbors = 192;           ///< a list's length; more go the slow path
-constexpr std::uint8_t kOverflowList = 255;  ///< in NeighborLists::blocks: this particle takes the slow path
+constexpr std::uint8_t kOverflowList = 255;  ///< in DensityJob::blocks: this particle takes the slow path
 
 /// How far the dummy that pads lists is in every list, over h: beyond all support.
 template <class Real>
@@ -26,7 +26,7 @@ enum class SupportRadius : std::uint8_t { common, mean, own };
 /// The padded neighbour lists of one share. An entry is the neighbour's record offset in scalars; beside it stands the distance,
 /// so that no walk over the lists takes a root: it would wait for the neighbour's place.
 template <class Real>
-struct NeighborLists {
+struct alignas(64) NeighborLists {
   std::uint32_t* entries = nullptr;
   Real* distances = nullptr;  ///< / h
   std::size_t used = 0;

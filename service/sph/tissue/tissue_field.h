@@ -6,6 +6,7 @@
 // there come from the one exact signed distance, so that edges are round to the touch.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>

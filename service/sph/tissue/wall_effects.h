@@ -1,6 +1,8 @@
 // Tissue in a step: samples the walls near particles once, then adds pressure, contact spring and friction (walls.md, model "E").
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
