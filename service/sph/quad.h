@@ -34,6 +34,15 @@ struct Quad {
     transpose(a, b, c, d);
   }
 
+  /// The other way; rows begin `stride` apart.
+  static void storeColumns(Vector a, Vector b, Vector c, Vector d, Real* rows, std::size_t stride = kWidth) {
+    transpose(a, b, c, d);
+    store(a, rows);
+    store(b, rows + stride);
+    store(c, rows + 2 * stride);
+    store(d, rows + 3 * stride);
+  }
+
   /// Rows of four become columns, and columns rows.
   static void transpose(Vector& a, Vector& b, Vector& c, Vector& d) {
     const Vector ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
@@ -56,6 +65,19 @@ struct Quad {
   static Real least(const Vector& v) { return std::min(std::min(v[0], v[1]), std::min(v[2], v[3])); }
   static Real largest(const Vector& v) { return std::max(std::max(v[0], v[1]), std::max(v[2], v[3])); }
 };
+
+/// four(i) takes entries i to i + 3, or returns false and takes none of them, where one is a special case; one(i) takes each of
+/// those and what is left at the end.
+template <class Four, class One>
+void inFours(std::uint32_t begin, std::uint32_t end, const Four& four, const One& one) {
+  for (std::uint32_t i = begin; i < end;) {
+    const std::uint32_t next = std::min(end, i + 4);
+    if (next != i + 4 || !four(i)) {
+      for (std::uint32_t k = i; k < next; ++k) one(k);
+    }
+    i = next;
+  }
+}
 
 /// Whether all four of the entries are 0.
 inline bool fourZeros(const std::uint32_t* entries) {

@@ -14,6 +14,9 @@ namespace bleedsim::sph {
 
 class StepScratch {
  public:
+  /// Between two parts of a layout, so that rows of one particle do not meet in the first-level cache.
+  static constexpr std::size_t kApart = 7 * 64;
+
   /// For an effect when it is made: this many bytes will be asked for in a step.
   void reserve(std::size_t bytes) { wanted_ = std::max(wanted_, bytes); }
   /// Once, when all effects are made.

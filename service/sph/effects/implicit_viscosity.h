@@ -104,8 +104,8 @@ class ImplicitViscosity {
     Real dt;
   };
 
-  /// In the scratch, behind the residuals; a few lines further, so that both do not meet in the first-level cache.
-  static std::size_t productsAt(std::uint32_t capacity) { return std::size_t{capacity} * 4 * sizeof(Real) + 7 * 64; }
+  /// In the scratch, behind the residuals.
+  static std::size_t productsAt(std::uint32_t capacity) { return std::size_t{capacity} * 4 * sizeof(Real) + StepScratch::kApart; }
 
   Real* residualOf(std::uint32_t i) { return residual_ + std::size_t{i} * 4; }
   Real* productOf(std::uint32_t i) { return product_ + std::size_t{i} * 4; }

@@ -77,11 +77,10 @@ class SurfaceTension {
     std::uint32_t particles;
     bool held;
   };
-  // In the scratch, in this order; the lines between them keep rows of one particle from meeting in the first-level cache.
-  static constexpr std::size_t kApart = 7 * 64;
-  static std::size_t normalsAt(std::uint32_t capacity) { return std::size_t{capacity} * sizeof(Total) + kApart; }
+  // In the scratch, in this order.
+  static std::size_t normalsAt(std::uint32_t capacity) { return std::size_t{capacity} * sizeof(Total) + StepScratch::kApart; }
   static std::size_t accelerationsAt(std::uint32_t capacity) {
-    return normalsAt(capacity) + std::size_t{capacity} * 4 * sizeof(Real) + kApart;
+    return normalsAt(capacity) + std::size_t{capacity} * 4 * sizeof(Real) + StepScratch::kApart;
   }
 
   void meetTissue(const WallEffects<Real>& walls, PairPasses<Real>& passes, int shares, Executor& executor);

@@ -81,14 +81,8 @@ class ClosingKick {
         acceleration_cap2_{caps.acceleration * caps.acceleration} {}
 
   KickResult<Real> run(ShareRange range) {
-    for (std::uint32_t i = range.begin; i < range.end;) {
-      if (i + Q::kWidth <= range.end && kickFour(i)) {
-        i += Q::kWidth;
-        continue;
-      }
-      const std::uint32_t end = std::min(range.end, i + Q::kWidth);
-      for (; i < end; ++i) kickOne(i);
-    }
+    inFours(
+        range.begin, range.end, [this](std::uint32_t i) { return kickFour(i); }, [this](std::uint32_t i) { kickOne(i); });
     result_.max_speed2 = std::max(result_.max_speed2, Q::largest(max_speed2_));
     result_.max_acceleration2 = std::max(result_.max_acceleration2, Q::largest(max_acceleration2_));
     return result_;

@@ -52,18 +52,14 @@ class Drift {
         bounded_{!domain.periodic[0] && !domain.periodic[1] && !domain.periodic[2]} {}
 
   DriftResult<Real> run(ShareRange range) {
-    for (std::uint32_t i = range.begin; i < range.end;) {
-      if (i + Q::kWidth <= range.end && driftFour(i)) {
-        i += Q::kWidth;
-        continue;
-      }
-      const std::uint32_t end = std::min(range.end, i + Q::kWidth);
-      for (; i < end; ++i) driftOne(i);
+    inFours(
+        range.begin, range.end, [this](std::uint32_t i) { return driftFour(i); }, [this](std::uint32_t i) { driftOne(i); });
+    Bounds<Real> of_fours;
+    for (std::size_t k = 0; k < 3; ++k) {
+      of_fours.lower[k] = Q::least(lower_[k]);
+      of_fours.upper[k] = Q::largest(upper_[k]);
     }
-    if (Q::least(lower_[0]) <= Q::largest(upper_[0])) {
-      result_.bounds.include(Q::least(lower_[0]), Q::least(lower_[1]), Q::least(lower_[2]));
-      result_.bounds.include(Q::largest(upper_[0]), Q::largest(upper_[1]), Q::largest(upper_[2]));
-    }
+    result_.bounds.merge(of_fours);
     return result_;
   }
 
@@ -81,12 +77,7 @@ class Drift {
       lower_[k] = x[k] < lower_[k] ? x[k] : lower_[k];
       upper_[k] = x[k] > upper_[k] ? x[k] : upper_[k];
     }
-    Q::transpose(x[0], x[1], x[2], unused);
-    Real* to = moved_ + std::size_t{i} * 4;
-    Q::store(x[0], to);
-    Q::store(x[1], to + 4);
-    Q::store(x[2], to + 8);
-    Q::store(unused, to + 12);
+    Q::storeColumns(x[0], x[1], x[2], unused, moved_ + std::size_t{i} * 4);
     std::fill_n(cells_ + i, Q::kWidth, 0u);
     return true;
   }
@@ -136,8 +127,8 @@ class Drift {
   std::uint32_t* cells_;
   bool bounded_;
   DriftResult<Real> result_;
-  V lower_[3] = {Q::set(Real(1e9)), Q::set(Real(1e9)), Q::set(Real(1e9))};  // as Bounds
-  V upper_[3] = {Q::set(Real(-1e9)), Q::set(Real(-1e9)), Q::set(Real(-1e9))};
+  V lower_[3] = {Q::set(result_.bounds.lower[0]), Q::set(result_.bounds.lower[1]), Q::set(result_.bounds.lower[2])};
+  V upper_[3] = {Q::set(result_.bounds.upper[0]), Q::set(result_.bounds.upper[1]), Q::set(result_.bounds.upper[2])};
 };
 
 /// The opening half kick of particle i, if any, into place `to` of another order; a throat gives its particles their velocities,

@@ -14,19 +14,21 @@ namespace bleedsim::sph {
 
 class ListStretches {
  public:
+  /// Particles of the rows that densities and the walk behind them take in turns.
+  static constexpr std::uint32_t kChunk = 512;
+
   /// For lists with room for `capacity` entries. No function allocates later.
   explicit ListStretches(std::size_t capacity) : capacity_{capacity}, stretches_(capacity / kShortest + 1) {}
 
-  /// Cuts the room for densities that are computed by `chunk` particles and a row at a time, and begins the lists anew in the
+  /// Cuts the room for densities that are computed by kChunk particles and a row at a time, and begins the lists anew in the
   /// first stretch. Rows before `first_walked` keep their lists. One stretch holds all where they would be too few.
   template <class Real>
-  void begin(const GridView<Real>& view, int row_begin, int row_end, int first_walked, std::uint32_t chunk,
-             NeighborLists<Real>& lists) {
+  void begin(const GridView<Real>& view, int row_begin, int row_end, int first_walked, NeighborLists<Real>& lists) {
     std::size_t longest = 0;
     for (int row = row_begin; row < row_end; ++row) {
       longest = std::max(longest, std::size_t{view.rowEnd(row) - view.rowBegin(row)});
     }
-    size_ = std::max(kShortest, (longest + chunk + 2) * kMaxNeighbors);
+    size_ = (longest + kChunk + 2) * kMaxNeighbors;
     count_ = capacity_ / size_ < kFewest ? 1 : capacity_ / size_;
     first_walked_ = first_walked;
     for (std::size_t k = 0; k < count_; ++k) stretches_[k] = {};
@@ -63,7 +65,7 @@ class ListStretches {
 
  private:
   // A stretch takes whatever one chunk may need, so that the room it goes on in is enough.
-  static constexpr std::size_t kShortest = std::size_t{512} * kMaxNeighbors;
+  static constexpr std::size_t kShortest = std::size_t{kChunk} * kMaxNeighbors;
   static constexpr std::size_t kFewest = 4;
 
   struct Stretch {

@@ -126,11 +126,11 @@ class PairPasses {
       const int own = begin + (share == 0 ? 0 : layer);  // the rows before wait for the other share
       int walked = own;
       ListStretches& stretches = stretches_[static_cast<std::size_t>(share)];
-      if (!keep) stretches.begin(grid.view(), begin, end, own, kChunk, *densities.lists);
+      if (!keep) stretches.begin(grid.view(), begin, end, own, *densities.lists);
       for (int row = begin; row < end;) {
         if (share == 0) times.start();
         densities.row_begin = row;
-        row = grid.view().rowsWith(kChunk, row, end);
+        row = grid.view().rowsWith(ListStretches::kChunk, row, end);
         densities.row_end = row;
         if (!keep) stretches.prepare(densities.row_begin, walked, *densities.lists);
         density_function_(densities);
@@ -267,9 +267,6 @@ class PairPasses {
   }
 
  private:
-  /// Particles of the rows that density() and the walk take in turns.
-  static constexpr std::uint32_t kChunk = 512;
-
   /// Few particles never ask for more than their own pages.
   static AlignedArray<std::byte> roomFor(std::uint32_t capacity, std::size_t bytes) {
     constexpr std::uint32_t kManyParticles = 4096;
@@ -352,12 +349,7 @@ class PairPasses {
     Real* to = record(begin) + field;
     std::size_t i = begin;
     for (; i + Q::kWidth <= begin + length; i += Q::kWidth, to += Q::kWidth * stride) {
-      auto a = Q::load(x + i), b = Q::load(y + i), c = Q::load(z + i), d = Q::set(Real(0));
-      Q::transpose(a, b, c, d);
-      Q::store(a, to);
-      Q::store(b, to + stride);
-      Q::store(c, to + 2 * stride);
-      Q::store(d, to + 3 * stride);
+      Q::storeColumns(Q::load(x + i), Q::load(y + i), Q::load(z + i), Q::set(Real(0)), to, stride);
     }
     for (; i < begin + length; ++i, to += stride) {
       to[0] = x[i];

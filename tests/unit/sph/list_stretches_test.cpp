@@ -7,7 +7,7 @@
 namespace bleedsim::sph {
 namespace {
 
-constexpr std::uint32_t kChunk = 512;
+constexpr std::uint32_t kChunk = ListStretches::kChunk;
 
 /// What PairPasses::densityAndSweep() does with the room: rows of equally many particles, lists of equal length, a walk that
 /// stays `lag` rows behind.
@@ -24,7 +24,7 @@ class Room {
   void sweep(int first, int lag, std::size_t length) {
     live_.clear();
     const int rows = view_.size[1];
-    stretches_.begin(view_, 0, rows, first, kChunk, lists_);
+    stretches_.begin(view_, 0, rows, first, lists_);
     int walked = first;
     for (int row = 0; row < rows;) {
       const int end = view_.rowsWith(kChunk, row, rows);
