@@ -125,14 +125,14 @@ TYPED_TEST(KickDrift, DriftOfFourIsThatOfOne) {
         AlignedArray<Real> one{kCount * 4};
         std::array<std::uint32_t, kCount> cells_of_four{};
         std::array<std::uint32_t, kCount> cells_of_one{};
-        const auto driftInto = [&](AlignedArray<Real>& moved, std::array<std::uint32_t, kCount>& cells) {
+        const auto drift_into = [&](AlignedArray<Real>& moved, std::array<std::uint32_t, kCount>& cells) {
           return Drift<Real>{motion.particles, moved.data(), motion.acceleration.data(), Real(0.01), Real(0.125), 1.0, box,
                              wounds,           cells.data()};
         };
-        const DriftResult<Real> whole = driftInto(four, cells_of_four).run(ShareRange{kCount, 0, 1});
+        const DriftResult<Real> whole = drift_into(four, cells_of_four).run(ShareRange{kCount, 0, 1});
         DriftResult<Real> sum;
         for (std::uint32_t i = 0; i < kCount; ++i) {
-          const DriftResult<Real> result = driftInto(one, cells_of_one).run(only(i));
+          const DriftResult<Real> result = drift_into(one, cells_of_one).run(only(i));
           sum.bounds.merge(result.bounds);
           sum.left_domain += result.left_domain;
         }
