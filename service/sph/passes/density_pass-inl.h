@@ -106,6 +106,7 @@ class DensityPass {
 
   /// Fills the candidate buffer; false when the cells hold too many.
   HWY_INLINE bool gatherCandidates(const NeighborRun<Real>* runs, int run_count, std::uint32_t begin, std::uint32_t end) {
+    at_rest_ = false;
     std::uint32_t total = 0;
     for (int k = 0; k < run_count; ++k) total += runs[k].end - runs[k].begin;
     if (total > static_cast<std::uint32_t>(kMaxCandidates - kWidth * GridView<Real>::kMaxRuns)) return false;
@@ -134,33 +135,43 @@ class DensityPass {
     }
 
     int count = 0;
-    const V zero = L::set(Real(0));
     V reach = reach2();
     if constexpr (kRadius == SupportRadius::mean) {
       Real largest = Real(1);
       for (std::uint32_t i = begin; i < end; ++i) largest = std::max(largest, job_.radius[i]);
       reach = L::set(largest * largest);
     }
+    // What the loop reads of the job stands in locals: its stores could change members, for all that the compiler knows.
+    const Real* const xs = position[0];
+    const Real* const ys = position[1];
+    const Real* const zs = position[2];
+    [[maybe_unused]] const Real* const radii = job_.radius;
+    [[maybe_unused]] V least = L::set(Real(1));
+    [[maybe_unused]] V most = least;
+    const std::uint32_t stride = stride_;
+    const auto steps = L::idRow(0, stride);
     for (int b = 0; b < blocks; ++b) {
       const std::uint32_t j = block_begin_[b];
-      V x = L::loadUnaligned(job_.x + j);
-      V y = L::loadUnaligned(job_.y + j);
-      V z = L::loadUnaligned(job_.z + j);
+      V x = L::loadUnaligned(xs + j);
+      V y = L::loadUnaligned(ys + j);
+      V z = L::loadUnaligned(zs + j);
       if constexpr (kPeriodic) {
         const NeighborRun<Real>& run = runs[block_run_[b]];
         x = x + L::set(run.shift_x);
         y = y + L::set(run.shift_y);
         z = z + L::set(run.shift_z);
       }
-      const V dx = L::max(L::max(lower[0] - x, x - upper[0]), zero);
-      const V dy = L::max(L::max(lower[1] - y, y - upper[1]), zero);
-      const V dz = L::max(L::max(lower[2] - z, z - upper[2]), zero);
+      const V dx = x - L::min(L::max(x, lower[0]), upper[0]);
+      const V dy = y - L::min(L::max(y, lower[1]), upper[1]);
+      const V dz = z - L::min(L::max(z, lower[2]), upper[2]);
       V q2 = L::mulAdd(dx, dx, L::tail(block_end_[b] - j));
       q2 = L::mulAdd(dz, dz, L::mulAdd(dy, dy, q2));
       V pair_reach = reach;
       [[maybe_unused]] V own_reach;
       if constexpr (kRadius == SupportRadius::mean) {
-        const V radius = L::loadUnaligned(job_.radius + j);
+        const V radius = L::loadUnaligned(radii + j);
+        least = L::min(least, radius);
+        most = L::max(most, radius);
         own_reach = radius * radius;
         pair_reach = L::max(reach, own_reach);
       }
@@ -169,13 +180,14 @@ class DensityPass {
       L::compress(x, near, x_ + count);
       L::compress(y, near, y_ + count);
       L::compress(z, near, z_ + count);
-      L::compress(L::idRow(j * stride_, stride_), near, ids_ + count);
+      L::compress(L::setIds(j * stride) + steps, near, ids_ + count);
       count += L::countTrue(near);
     }
     // What fills the last vector is out of reach, whatever the other coordinates there are.
     L::storeUnaligned(L::set(Real(1e6)), x_ + count);
-    if constexpr (kRadius == SupportRadius::mean) L::storeUnaligned(zero, reach2_ + count);
+    if constexpr (kRadius == SupportRadius::mean) L::storeUnaligned(L::set(Real(0)), reach2_ + count);
     candidates_ = count;
+    if constexpr (kRadius == SupportRadius::mean) at_rest_ = L::countTrue(L::below(least, most)) == 0;
     return true;
   }
 
@@ -194,40 +206,36 @@ class DensityPass {
 
   void sweepBatch(const NeighborRun<Real>* runs, int run_count, std::uint32_t first, std::uint32_t size) {
     std::uint64_t overflowed = 0;  // bit per particle
-    for (std::uint32_t k = 0; k < size; k += 2) {
-      const bool two = k + 1 < size;
-      if (job_.lists->used + 2 * kMaxNeighbors > job_.lists->end && !job_.lists->goOn()) {
-        overflowed |= (two ? std::uint64_t{3} : std::uint64_t{1}) << k;
-        lengths_[k] = 0;
-        if (two) lengths_[k + 1] = 0;
-        continue;
-      }
-      std::uint32_t* const entries = job_.lists->entries + job_.lists->used;
-      Hits a{q2_ + kMaxNeighbors * k, entries, 0};
-      Hits b{q2_ + kMaxNeighbors * (two ? k + 1 : k), second_ids_, 0};
-      const bool fits = two ? searchTwo(first + k, a, b) : searchOne(first + k, a);
-      if (!fits && two) {  // one of them overflows: each on its own
-        a.count = b.count = 0;
-        if (!searchOne(first + k, a)) overflowed |= std::uint64_t{1} << k;
-        if (!searchOne(first + k + 1, b)) overflowed |= std::uint64_t{2} << k;
-      } else if (!fits) {
-        overflowed |= std::uint64_t{1} << k;
-      }
-      lengths_[k] = (overflowed >> k & 1) ? 0 : closeList(first + k, a);
-      if (!two) continue;
-      if (overflowed >> (k + 1) & 1) {
-        lengths_[k + 1] = 0;
-        continue;
-      }
-      std::uint32_t* const target = job_.lists->entries + job_.lists->used;
-      lengths_[k + 1] = closeList(first + k + 1, b);
-      for (int v = 0; v < lengths_[k + 1]; ++v) L::storeIds(L::loadIds(second_ids_ + v * kWidth), target + v * kWidth);
+    for (std::uint32_t k = 0; k < size + 2; k += 2) {
+      if (k < size) overflowed |= searchPair(first + k, k, k + 1 < size) << k;
+      if (k > 0) weighPair(first, k - 2);
     }
-    evaluate(first, size);
+    finishBatch(first, size);
     if (overflowed == 0) return;
     for (std::uint32_t k = 0; k < size; ++k) {
       if (overflowed >> k & 1) sumDirectly(runs, run_count, first + k);
     }
+  }
+
+  /// Lists of particle i, the batch's k-th, and of the one behind it if there are two; the second one's entries are left apart.
+  /// Bits of those that get none, for they overflow or the room is full.
+  HWY_INLINE std::uint64_t searchPair(std::uint32_t i, std::uint32_t k, bool two) {
+    lengths_[k] = lengths_[k + 1] = 0;
+    if (job_.lists->used + 2 * kMaxNeighbors > job_.lists->end && !job_.lists->goOn()) return two ? 3 : 1;
+    Hits a{q2_ + kMaxNeighbors * k, job_.lists->entries + job_.lists->used, 0};
+    Hits b{q2_ + kMaxNeighbors * (k + 1), second_ids_[k / 2 % 2], 0};
+    std::uint64_t overflowed = 0;
+    const bool fit = two ? searchTwo(i, a, b) : searchOne(i, a);
+    if (!fit && two) {  // one of them overflows: each on its own
+      a.count = b.count = 0;
+      if (!searchOne(i, a)) overflowed |= 1;
+      if (!searchOne(i + 1, b)) overflowed |= 2;
+    } else if (!fit) {
+      overflowed |= 1;
+    }
+    if (!(overflowed & 1)) lengths_[k] = closeList(i, a);
+    if (two && !(overflowed & 2)) lengths_[k + 1] = closeList(i + 1, b);
+    return overflowed;
   }
 
   bool searchOne(std::uint32_t i, Hits& hits) const {
@@ -274,43 +282,64 @@ class DensityPass {
     return length;
   }
 
-  HWY_INLINE void evaluate(std::uint32_t first, std::uint32_t size) {
-    for (std::uint32_t k = 0; k < size; ++k) {
-      V sum = L::set(Real(0));
-      if (lengths_[k] > 0) {
-        const std::size_t at = static_cast<std::size_t>(job_.list_at[first + k]) * kWidth;
-        const Real* const q2 = q2_ + kMaxNeighbors * k;
-        Real* const distances = job_.lists->distances + at;
-        const auto distance = [&](int v) {
-          const V q = L::sqrt(L::load(q2 + v * kWidth));
-          L::store(q, distances + v * kWidth);
-          return q;
-        };
-        addWeights(first + k, distance, job_.lists->entries + at, lengths_[k], sum);
-      }
-      L::store(sum, sums_ + k * kWidth);
+  /// Puts the second list of a pair behind the first one and weighs both. Only once the next pair has been searched: read right
+  /// after they were written, in pieces that are no vectors, lists wait for the cache, and the roots run beside the search.
+  HWY_INLINE void weighPair(std::uint32_t first, std::uint32_t k) {
+    if (lengths_[k + 1] > 0) {
+      const std::uint32_t* const from = second_ids_[k / 2 % 2];
+      std::uint32_t* const to = job_.lists->entries + static_cast<std::size_t>(job_.list_at[first + k + 1]) * kWidth;
+      for (int v = 0; v < lengths_[k + 1]; ++v) L::storeIds(L::loadIds(from + v * kWidth), to + v * kWidth);
     }
+    for (std::uint32_t m = k; m < k + 2; ++m) weigh(first, m);
+  }
+
+  HWY_INLINE void weigh(std::uint32_t first, std::uint32_t k) {
+    V sum = L::set(Real(0));
+    if (lengths_[k] > 0) {
+      const std::size_t at = static_cast<std::size_t>(job_.list_at[first + k]) * kWidth;
+      const Real* const q2 = q2_ + kMaxNeighbors * k;
+      Real* const distances = job_.lists->distances + at;
+      const auto distance = [&](int v) {
+        const V q = L::sqrt(L::load(q2 + v * kWidth));
+        L::store(q, distances + v * kWidth);
+        return q;
+      };
+      addWeights(first + k, distance, job_.lists->entries + at, lengths_[k], sum);
+    }
+    L::store(sum, sums_ + k * kWidth);
+  }
+
+  HWY_INLINE void finishBatch(std::uint32_t first, std::uint32_t size) {
     for (std::uint32_t k = 0; k < size; k += kWidth) {
       V rows[kWidth];
       for (int r = 0; r < kWidth; ++r) rows[r] = L::load(sums_ + (k + static_cast<std::uint32_t>(r)) * kWidth);
-      alignas(64) Real sums[kWidth];
-      L::store(L::sums(rows), sums);
-      const std::uint32_t last = std::min<std::uint32_t>(kWidth, size - k);
-      for (std::uint32_t r = 0; r < last; ++r) finish(first + k + r, sums[r]);
+      finish(first + k, std::min<std::uint32_t>(kWidth, size - k), L::sums(rows));
     }
   }
 
-  void finish(std::uint32_t i, Real weight) const {
-    Real density = job_.mass_weight * weight;
-    if constexpr (kTissue) density += job_.rest_density * job_.share[i];
-    const Real inverse = Real(1) / density;
-    const Real pressure = std::max(job_.pressure_floor, job_.background + job_.stiffness * (density - job_.rest_density));
-    Real* record = job_.record + static_cast<std::size_t>(i) * stride_;
-    if (job_.pressure_scale != Real(0)) {
-      record[kRecordPressure] = job_.pressure_scale * pressure * (job_.symmetric ? Real(0.5) : inverse * inverse);
+  /// Densities and pressures of `count` particles, at most a vector, from their weights.
+  HWY_INLINE void finish(std::uint32_t first, std::uint32_t count, V weights) const {
+    V density = L::set(job_.mass_weight) * weights;
+    if constexpr (kTissue) density = density + L::set(job_.rest_density) * L::loadUnaligned(job_.share + first);
+    const V inverse = L::set(Real(1)) / density;
+    const V floor = L::set(job_.pressure_floor);
+    const V state = L::set(job_.background) + L::set(job_.stiffness) * (density - L::set(job_.rest_density));
+    const V pressure = L::ifBelow(floor, state, state, floor);
+    const V term = L::set(job_.pressure_scale) * pressure * (job_.symmetric ? L::set(Real(0.5)) : inverse * inverse);
+    alignas(64) Real densities[kWidth];
+    alignas(64) Real inverses[kWidth];
+    alignas(64) Real terms[kWidth];
+    L::store(density, densities);
+    L::store(inverse, inverses);
+    L::store(term, terms);
+    const bool has_pressure = job_.pressure_scale != Real(0);
+    const bool has_inverse = job_.groups > 1;
+    Real* record = job_.record + static_cast<std::size_t>(first) * stride_;
+    for (std::uint32_t r = 0; r < count; ++r, record += stride_) {
+      if (has_pressure) record[kRecordPressure] = terms[r];
+      if (has_inverse) record[kRecordInverseDensity] = inverses[r];
+      job_.density[first + r] = densities[r];
     }
-    if (job_.groups > 1) record[kRecordInverseDensity] = inverse;
-    job_.density[i] = density;
   }
 
   /// The path of a particle without a list: it has too many neighbours, or there is no room for more lists.
@@ -324,18 +353,16 @@ class DensityPass {
                                           i, [&](int v) { return L::load(distances + v * kWidth); }, list, vectors, sum);
                                     });
     rows[0] = sum;
-    alignas(64) Real sums[kWidth];
-    L::store(L::sums(rows), sums);
     job_.blocks[i] = kOverflowList;
     ++job_.overflowed;
-    finish(i, sums[0]);
+    finish(i, 1, L::sums(rows));
   }
 
   /// `distance` gives the distances of a vector of the list, by its number.
   template <class Distance>
   HWY_INLINE void addWeights([[maybe_unused]] std::uint32_t i, const Distance& distance,
                              [[maybe_unused]] const std::uint32_t* list, int vectors, V& sum) const {
-    if constexpr (kRadius == SupportRadius::common) {
+    if (kRadius == SupportRadius::common || (kRadius == SupportRadius::mean && at_rest_)) {
       for (int v = 0; v < vectors; ++v) sum = sum + Kernel::weight(distance(v));
       return;
     }
@@ -366,7 +393,7 @@ class DensityPass {
   alignas(64) Real reach2_[kRadius == SupportRadius::mean ? kCandidateRoom : 1];
   alignas(64) Real q2_[kBatch * kMaxNeighbors];
   alignas(64) Real sums_[(kBatch + 8) * kWidth] = {};
-  alignas(64) std::uint32_t second_ids_[kMaxNeighbors];
+  alignas(64) std::uint32_t second_ids_[2][kMaxNeighbors];
   std::uint32_t block_begin_[kMaxBlocks];
   std::uint32_t block_end_[kMaxBlocks];
   std::uint8_t block_run_[kMaxBlocks];
@@ -374,6 +401,7 @@ class DensityPass {
   DensityJob<Real>& job_;
   const std::uint32_t stride_;
   int candidates_ = 0;
+  bool at_rest_ = false;  // all radii around the cell are h: the mean of both kernels is either one, to the bit
 };
 
 }  // namespace bleedsim::sph::HWY_NAMESPACE
