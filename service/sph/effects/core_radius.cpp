@@ -30,15 +30,16 @@ CoreRadius<Real>::CoreRadius(const CoreRadiusSettings& settings, double rest_den
 
 template <class Real>
 Real CoreRadius<Real>::update(Particles<Real>& p, const Real* density, std::uint32_t count, int shares, Executor& executor) {
-  return mover_.move(p, density, count, shares, executor, [&](Real rho, Real radius) {
-    const Real volume = Real(1) / (Real(1) + followed(rho / rest_density_ - Real(1)));
-    const Real ratio = std::min(std::max(least_ratio_, volume), most_ratio_);
-    const Real wanted = ratio == Real(1) ? Real(1) : cubeRoot(ratio);  // at rest density, as most are, without the root
-    const Real moved = radius + relaxation_ * (wanted - radius);
+  const auto law = [smallest = smallest_, largest = largest_, relaxation = relaxation_, least = least_ratio_, most = most_ratio_,
+                    rest = rest_density_](Real rho, Real radius) {
+    const Real volume = Real(1) / (Real(1) + followed(rho / rest - Real(1)));
+    const Real wanted = cubeRoot(std::min(std::max(least, volume), most));
+    const Real moved = radius + relaxation * (wanted - radius);
     // A radius that stays a rounding away from h for ever would be packed with divisions in every step.
     const Real reached = std::abs(moved - wanted) < static_cast<Real>(kArrived) ? wanted : moved;
-    return std::min(std::max(smallest_, reached), largest_);
-  });
+    return std::min(std::max(smallest, reached), largest);
+  };
+  return mover_.move(p, density, count, shares, executor, law);
 }
 
 template class LatticeFactors<float>;

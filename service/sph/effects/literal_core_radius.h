@@ -49,10 +49,12 @@ class LiteralCoreRadius {
 
   /// Gives the free particles the radii of (34). `density` in kg/m^3. Returns the largest radius over h, at least 1.
   Real update(Particles<Real>& p, const Real* density, std::uint32_t count, int shares, Executor& executor) {
-    return mover_.move(p, density, count, shares, executor, [&](Real rho, Real) {
-      const Real room = std::clamp(mass_per_volume_ / rho, least_room_, most_room_);  // m/rho_i over dx^d
-      return std::clamp(planar_ ? std::sqrt(room) : cubeRoot(room), smallest_, largest_);
-    });
+    const auto law = [planar = planar_, smallest = smallest_, largest = largest_, least = least_room_, most = most_room_,
+                      mass = mass_per_volume_](Real rho, Real) {
+      const Real room = std::clamp(mass / rho, least, most);  // m/rho_i over dx^d
+      return std::clamp(planar ? std::sqrt(room) : cubeRoot(room), smallest, largest);
+    };
+    return mover_.move(p, density, count, shares, executor, law);
   }
 
  private:

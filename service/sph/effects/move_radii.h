@@ -7,6 +7,7 @@
 
 #include "service/sph/executor.h"
 #include "service/sph/particles.h"
+#include "service/sph/quad.h"
 #include "service/sph/share_range.h"
 
 namespace bleedsim::sph {
@@ -17,17 +18,27 @@ class RadiusMover {
   explicit RadiusMover(int shares) : largest_of_share_(static_cast<std::size_t>(shares)) {}
 
   /// law(density in kg/m^3, radius over h) gives the new radius over h. Returns the largest, at least 1, as new particles have:
-  /// how far the next step must search.
+  /// how far the next step must search. The law is called without a branch, so that the compiler takes several particles at once
+  /// where it has none either.
   template <class Law>
   Real move(Particles<Real>& p, const Real* density, std::uint32_t count, int shares, Executor& executor, const Law& law) {
     executor.run(shares, [&](int share) {
       const ShareRange range{count, share, shares};
-      Real most = Real(1);
+      const Law own = law;  // not through the reference, which the radii could change, for all that the compiler knows
+      Real* const radius = p.radius.data();
+      const std::uint32_t* const driver = p.driver.data();
       for (std::uint32_t i = range.begin; i < range.end; ++i) {
-        if (p.driver[i] != 0) continue;
-        p.radius[i] = law(density[i], p.radius[i]);
-        most = std::max(most, p.radius[i]);
+        const Real moved = own(density[i], radius[i]);
+        radius[i] = driver[i] != 0 ? radius[i] : moved;
       }
+      Real most = Real(1);
+      inFours(
+          range.begin, range.end,
+          [&](std::uint32_t i) {
+            most = std::max(most, Quad<Real>::largest(Quad<Real>::load(radius + i)));
+            return true;
+          },
+          [&](std::uint32_t i) { most = std::max(most, radius[i]); });
       largest_of_share_[static_cast<std::size_t>(share)].radius = most;
     });
     Real most = Real(1);
