@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
+#include <vector>
 
 #include "service/sph/cube_root.h"
 #include "service/sph/rest_lattice.h"
@@ -75,6 +76,35 @@ TEST(LatticeFactors, KeepTheRestLatticeAtRestAtAnyRadius) {
       const bool node = k % 10 == 0;
       EXPECT_NEAR(factors.mass(radius), own.particle_mass / at_h.particle_mass, node ? 1e-12 : draft ? 0.01 : 0.002);
       EXPECT_NEAR(factors.viscosity(radius), own.viscosity_factor / at_h.viscosity_factor, node ? 1e-12 : draft ? 0.032 : 0.008);
+    }
+  }
+}
+
+// The law is taken for several particles at once, and for the others, with every one of them in a throat or not.
+TEST(RadiusMover, MovesEveryFreeParticleAndFindsTheLargest) {
+  const auto law = [](float density, float radius) { return density * radius; };
+  for (std::uint32_t count = 1; count <= 13; ++count) {
+    for (const int shares : {1, 3}) {
+      const auto executor = makeExecutor(shares);
+      for (std::uint32_t driven = 0; driven <= count; ++driven) {
+        Particles<float> p{count, {.radius = true}, 0};
+        std::vector<float> density(count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+          p.radius[i] = i == driven ? 1.0f : 0.9f;
+          p.driver[i] = i == driven ? 7u : 0u;
+          density[i] = 1.0f + 0.1f * static_cast<float>((i * 5) % count);
+        }
+        float largest = 1.0f;
+        std::vector<float> expected(count, 1.0f);
+        for (std::uint32_t i = 0; i < count; ++i) {
+          if (i == driven) continue;
+          expected[i] = law(density[i], 0.9f);
+          largest = std::max(largest, expected[i]);
+        }
+        RadiusMover<float> mover{shares};
+        EXPECT_EQ(mover.move(p, density.data(), count, shares, *executor, law), largest);
+        EXPECT_EQ(std::vector<float>(p.radius.data(), p.radius.data() + count), expected) << count << ' ' << driven;
+      }
     }
   }
 }
