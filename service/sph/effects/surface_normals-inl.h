@@ -7,7 +7,9 @@
 #define BLEEDSIM_SPH_EFFECTS_SURFACE_NORMALS_INL_H_
 #endif
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "service/sph/passes/pair_geometry-inl.h"
 #include "service/sph/passes/pass_jobs.h"
@@ -46,13 +48,13 @@ class NormalSums {
       square += normal[a] * normal[a];
     }
     const bool driven = job.driver[i] != 0;
-    normal[3] = driven ? Real(1) : Real(0);
-    const bool kept = !driven && square > job.cutoff * job.cutoff;
+    normal[3] = static_cast<Real>(driven);
+    // Without a branch: which particle stands at a surface is hard to guess. The least length only keeps the division whole.
+    const auto kept = static_cast<Real>(!driven && square > job.cutoff * job.cutoff);
     const Real length = std::sqrt(square);
-    const Real unit = kept ? Real(1) / length : Real(0);
-    const Real ramp = length / job.cutoff - Real(1);
+    const Real unit = kept / std::max(length, std::numeric_limits<Real>::min());
     for (int a = 0; a < 3; ++a) surface[a] = normal[a] * unit;
-    surface[3] = !kept ? Real(0) : ramp < Real(1) ? ramp : Real(1);
+    surface[3] = kept * std::min(std::max(length / job.cutoff - Real(1), Real(0)), Real(1));
   }
 
   V x_ = L::set(Real(0));

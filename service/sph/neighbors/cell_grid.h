@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "service/sph/aligned_array.h"
@@ -71,6 +72,7 @@ class CellGrid {
     }
     start_ = AlignedArray<std::uint32_t>{most + 2, 29};
     histograms_.resize(static_cast<std::size_t>(shares));
+    block_totals_.resize(static_cast<std::size_t>(shares) * static_cast<std::size_t>(shares));
     for (auto& histogram : histograms_) histogram = AlignedArray<std::uint32_t>{most + 2, 31};
     view_.start = start_.data();
   }
@@ -141,21 +143,24 @@ class CellGrid {
       for (std::uint32_t i = range.begin; i < range.end; ++i) {
         if (cell_of_[i] != kRemoved) ++histogram[cell_of_[i]];
       }
+      if (shares < kSharesToScanApart) return;
+      for (int block = 0; block < shares; ++block) {
+        blockTotal(share, block, shares) =
+            std::accumulate(histogram + blockBegin(block, shares, cells), histogram + blockBegin(block + 1, shares, cells), 0u);
+      }
     });
     std::uint32_t sum = 0;
-    for (std::size_t c = 0; c < cells; ++c) {
-      if (c + 4 <= cells && fourEmpty(c, shares)) {  // most cells are empty, and nobody asks for their places
-        std::fill_n(start_.data() + c, 4, sum);
-        c += 3;
-        continue;
-      }
-      start_[c] = sum;
-      for (int share = 0; share < shares; ++share) {
-        std::uint32_t& entry = histograms_[static_cast<std::size_t>(share)][c];
-        const std::uint32_t count = entry;
-        entry = sum;
-        sum += count;
-      }
+    if (shares < kSharesToScanApart) {
+      sum = scanCells(0, cells, shares, 0);
+    } else {
+      executor.run(shares, [&](int block) {
+        std::uint32_t before = 0;
+        for (int k = 0; k < block; ++k) {
+          for (int share = 0; share < shares; ++share) before += blockTotal(share, k, shares);
+        }
+        scanCells(blockBegin(block, shares, cells), blockBegin(block + 1, shares, cells), shares, before);
+      });
+      sum = std::accumulate(block_totals_.begin(), block_totals_.begin() + shares * shares, 0u);
     }
     start_[cells] = sum;
     executor.run(shares, [&](int share) {
@@ -209,6 +214,37 @@ class CellGrid {
  private:
   static constexpr std::uint32_t kLongestRun = 64;  // what one call moves stays in the first-level cache
 
+  /// From here on each share makes places of a block of cells: alone, one thread would take longer the more there are.
+  static constexpr int kSharesToScanApart = 3;
+
+  static std::size_t blockBegin(int block, int shares, std::size_t cells) {
+    return cells * static_cast<std::size_t>(block) / static_cast<std::size_t>(shares);
+  }
+  /// Particles of a share that stand in a block of cells.
+  std::uint32_t& blockTotal(int share, int block, int shares) {
+    return block_totals_[static_cast<std::size_t>(share * shares + block)];
+  }
+
+  /// Makes places of the counts of the cells from `begin` to `end`, with `sum` particles before them. Returns how many stand
+  /// before `end`.
+  std::uint32_t scanCells(std::size_t begin, std::size_t end, int shares, std::uint32_t sum) {
+    for (std::size_t c = begin; c < end; ++c) {
+      if (c + 4 <= end && fourEmpty(c, shares)) {  // most cells are empty, and nobody asks for their places
+        std::fill_n(start_.data() + c, 4, sum);
+        c += 3;
+        continue;
+      }
+      start_[c] = sum;
+      for (int share = 0; share < shares; ++share) {
+        std::uint32_t& entry = histograms_[static_cast<std::size_t>(share)][c];
+        const std::uint32_t count = entry;
+        entry = sum;
+        sum += count;
+      }
+    }
+    return sum;
+  }
+
   bool fourEmpty(std::size_t cell, int shares) const {
     bool empty = true;
     for (int share = 0; share < shares; ++share) {
@@ -240,6 +276,7 @@ class CellGrid {
   AlignedArray<std::uint32_t> start_;
   AlignedArray<std::uint32_t> cell_of_;
   std::vector<AlignedArray<std::uint32_t>> histograms_;
+  std::vector<std::uint32_t> block_totals_;  ///< of each share, the blocks of cells
 };
 
 }  // namespace bleedsim::sph

@@ -2,8 +2,8 @@
 //
 // The particles of the 27 cells around a cell are culled against the box of the cell's own particles into a buffer that stays in
 // the first-level cache. Two particles at a time test the buffer; hits (squared distance, record offset) are compressed into
-// lists, padded to whole vectors with a far dummy, so that the force pass needs no masks. The kernel is evaluated for the whole
-// cell afterwards.
+// lists, padded to whole vectors with a far dummy, so that the force pass needs no masks. A pair's kernels are evaluated once
+// the next pair has been searched.
 #if defined(BLEEDSIM_SPH_PASSES_DENSITY_PASS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BLEEDSIM_SPH_PASSES_DENSITY_PASS_INL_H_
 #undef BLEEDSIM_SPH_PASSES_DENSITY_PASS_INL_H_
