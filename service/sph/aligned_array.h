@@ -28,7 +28,7 @@ class AlignedArray {
 
  public:
   AlignedArray() = default;
-  explicit AlignedArray(std::size_t size, unsigned lane = 0) { std::memset(allocate(size, lane), 0, bytesFor(size, lane)); }
+  explicit AlignedArray(std::size_t size, unsigned lane = 0) { std::memset(allocate(size, lane), 0, neededFor(size, lane)); }
   AlignedArray(std::size_t size, unsigned lane, Uninitialized) { allocate(size, lane); }
   AlignedArray(std::size_t size, HugePage) { allocateIn(kHugePage, size, 0); }
   AlignedArray(AlignedArray&& other) noexcept { swap(other); }
@@ -60,18 +60,14 @@ class AlignedArray {
   static constexpr std::size_t kPage = 4096;
   static constexpr std::size_t kPadding = 256;
   static constexpr std::size_t kHugePage = std::size_t{2} << 20;
-  /// From here on an array gets huge pages, however much of the last one stays empty: worth 2 to 3 % with 20 000 particles, which
-  /// then hold 9 MiB more.
+  /// From here on an array gets huge pages, however much of the last one stays empty: worth 1 to 3 % with 20 000 particles, which
+  /// then hold 9 MB more. bytes() is without it, as without all padding.
   static constexpr std::size_t kLarge = kHugePage / 8;
 
   static std::size_t offsetOf(unsigned lane) { return 64 * ((lane * 7) % 61); }
   static std::size_t neededFor(std::size_t size, unsigned lane) { return offsetOf(lane) + size * sizeof(T) + kPadding; }
   static std::size_t pageOf(std::size_t needed) { return needed < kLarge ? kPage : kHugePage; }
   static std::size_t roundedTo(std::size_t page, std::size_t needed) { return (needed + page - 1) / page * page; }
-  static std::size_t bytesFor(std::size_t size, unsigned lane) {
-    const std::size_t needed = neededFor(size, lane);
-    return roundedTo(pageOf(needed), needed);
-  }
   std::byte* allocate(std::size_t size, unsigned lane) { return allocateIn(pageOf(neededFor(size, lane)), size, lane); }
   std::byte* allocateIn(std::size_t page, std::size_t size, unsigned lane) {
     const std::size_t bytes = roundedTo(page, neededFor(size, lane));

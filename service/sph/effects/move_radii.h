@@ -31,14 +31,18 @@ class RadiusMover {
         const Real moved = own(density[i], radius[i]);
         radius[i] = driver[i] != 0 ? radius[i] : moved;
       }
+      using Q = Quad<Real>;
       Real most = Real(1);
+      typename Q::Vector most_of_four = Q::set(Real(1));
       inFours(
           range.begin, range.end,
           [&](std::uint32_t i) {
-            most = std::max(most, Quad<Real>::largest(Quad<Real>::load(radius + i)));
+            const typename Q::Vector four = Q::load(radius + i);
+            most_of_four = four > most_of_four ? four : most_of_four;
             return true;
           },
           [&](std::uint32_t i) { most = std::max(most, radius[i]); });
+      most = std::max(most, Q::largest(most_of_four));
       largest_of_share_[static_cast<std::size_t>(share)].radius = most;
     });
     Real most = Real(1);
