@@ -134,8 +134,7 @@ class CellGrid {
   /// number of shares, the runs are not.
   template <class Move>
   std::uint32_t sortRuns(std::uint32_t n, int shares, Executor& executor, Move&& move) {
-    const std::size_t cells = static_cast<std::size_t>(view_.size[0]) * static_cast<std::size_t>(view_.size[1]) *
-                              static_cast<std::size_t>(view_.size[2]);
+    const auto cells = static_cast<std::uint32_t>(view_.size[0] * view_.size[1] * view_.size[2]);
     executor.run(shares, [&](int share) {
       std::uint32_t* histogram = histograms_[static_cast<std::size_t>(share)].data();
       std::fill_n(histogram, cells, 0u);
@@ -145,20 +144,20 @@ class CellGrid {
       }
       if (shares < kSharesToScanApart) return;
       for (int block = 0; block < shares; ++block) {
-        blockTotal(share, block, shares) =
-            std::accumulate(histogram + blockBegin(block, shares, cells), histogram + blockBegin(block + 1, shares, cells), 0u);
+        const ShareRange own{cells, block, shares};
+        blockTotal(share, block, shares) = std::accumulate(histogram + own.begin, histogram + own.end, 0u);
       }
     });
     std::uint32_t sum = 0;
     if (shares < kSharesToScanApart) {
-      sum = scanCells(0, cells, shares, 0);
+      sum = scanCells({cells, 0, 1}, shares, 0);
     } else {
       executor.run(shares, [&](int block) {
         std::uint32_t before = 0;
         for (int k = 0; k < block; ++k) {
           for (int share = 0; share < shares; ++share) before += blockTotal(share, k, shares);
         }
-        scanCells(blockBegin(block, shares, cells), blockBegin(block + 1, shares, cells), shares, before);
+        scanCells({cells, block, shares}, shares, before);
       });
       sum = std::accumulate(block_totals_.begin(), block_totals_.begin() + shares * shares, 0u);
     }
@@ -217,19 +216,15 @@ class CellGrid {
   /// From here on each share makes places of a block of cells: alone, one thread would take longer the more there are.
   static constexpr int kSharesToScanApart = 3;
 
-  static std::size_t blockBegin(int block, int shares, std::size_t cells) {
-    return cells * static_cast<std::size_t>(block) / static_cast<std::size_t>(shares);
-  }
   /// Particles of a share that stand in a block of cells.
   std::uint32_t& blockTotal(int share, int block, int shares) {
     return block_totals_[static_cast<std::size_t>(share * shares + block)];
   }
 
-  /// Makes places of the counts of the cells from `begin` to `end`, with `sum` particles before them. Returns how many stand
-  /// before `end`.
-  std::uint32_t scanCells(std::size_t begin, std::size_t end, int shares, std::uint32_t sum) {
-    for (std::size_t c = begin; c < end; ++c) {
-      if (c + 4 <= end && fourEmpty(c, shares)) {  // most cells are empty, and nobody asks for their places
+  /// Makes places of the counts of a block of cells, with `sum` particles before them. Returns how many stand before its end.
+  std::uint32_t scanCells(ShareRange block, int shares, std::uint32_t sum) {
+    for (std::uint32_t c = block.begin; c < block.end; ++c) {
+      if (c + 4 <= block.end && fourEmpty(c, shares)) {  // most cells are empty, and nobody asks for their places
         std::fill_n(start_.data() + c, 4, sum);
         c += 3;
         continue;

@@ -6,14 +6,16 @@
 namespace bleedsim::sph {
 namespace {
 
-constexpr PairSet kPressure{PressureTerm::variational, ViscosityTerm::none, false, false};
+PairSet pressure(bool core_radius) {
+  PairSet set{PressureTerm::variational, ViscosityTerm::none, false, false};
+  set.core_radius = core_radius;
+  return set;
+}
 
 WorldDescription box(bool core_radius, bool periodic) {
   WorldDescription description = test::periodicBox({24, 8, 8}, 0.3);
   description.domain.periodic = {periodic, periodic, periodic};
-  PairSet set = kPressure;
-  set.core_radius = core_radius;
-  return withPairSet(description, set);
+  return withPairSet(description, pressure(core_radius));
 }
 
 class RadiiAtRest : public testing::TestWithParam<SimdTarget> {};
@@ -40,10 +42,8 @@ TEST_P(RadiiAtRest, EndWhereTheNextRadiusIsAnother) {
     for (std::size_t i = 0; i < particles.radius.size(); ++i) {
       if (particles.position[i].x() > 0.0) particles.radius[i] = 1.0;
     }
-    PairSet set = kPressure;
-    set.core_radius = true;
     const PassRig<float> rig{description, GetParam(), particles};
-    const test::OracleFields oracle = test::bruteForce(description, set, rig.rounded());
+    const test::OracleFields oracle = test::bruteForce(description, pressure(true), rig.rounded());
     EXPECT_LT(largestRelativeDifference(rig.density(), oracle.density), 1e-5);
   }
 }
